@@ -43,7 +43,7 @@ pub(super) struct Bottom {
     /// The way that was commanded since the echo, m.
     way: f64,
     /// The depth, the way that was commanded since it changed, and where that was.
-    still: (f64, f64, Option<Point>),
+    still: Option<(f64, f64, Option<Point>)>,
     /// For how many ticks another depth was commanded all the same, and the least sum of depth and altitude since, m.
     least: (u64, Option<f64>),
     rise: Rise,
@@ -213,8 +213,7 @@ impl Bottom {
 
     /// By how much the bottom may have fallen since the depth changed, m.
     fn hidden(&self, w: &World) -> f64 {
-        let (_, way, place) = self.still;
-        0.25 * apart(w, place).max(way)
+        self.still.map_or(0.0, |(_, way, place)| 0.25 * apart(w, place).max(way))
     }
 
     /// The altitude, if it was told lately.
@@ -235,15 +234,16 @@ impl Bottom {
         if let Some((_, since)) = &mut self.other {
             *since += way;
         }
-        match w.depth().unwrap_or(0.0) {
-            depth if depth == self.still.0 => {
-                self.still.1 += way;
+        let depth = w.depth().unwrap_or(0.0);
+        match &mut self.still {
+            Some((before, gone, _)) if *before == depth => {
+                *gone += way;
                 let goal = self.commanded.map(|command| command.vertical);
                 let is_elsewhere = matches!(goal, Some(Vertical::Depth(goal)) if (goal - depth).abs() > 0.5);
                 self.least.0 += u64::from(is_elsewhere);
             }
-            depth => {
-                self.still = (depth, 0.0, w.place(FRESH_TICKS));
+            _ => {
+                self.still = Some((depth, 0.0, w.place(FRESH_TICKS)));
                 self.least = (0, None);
             }
         }
