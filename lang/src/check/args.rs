@@ -113,7 +113,12 @@ impl<'t> Checker<'t> {
     pub(super) fn missing_argument(&mut self, what: &str, param: &ParamInfo, span: Span, declared: Option<Span>) {
         let ty = self.type_name(&param.ty);
         let message = format!("`{what}` needs `{}`, {}", param.name, article(&ty));
-        let finding = Diagnostic::error(Code::ArgsMissing, span, message).help(format!("write `{}: …`", param.name));
+        let finding = Diagnostic::error(Code::ArgsMissing, span, message);
+        // What a behavior that is given takes has no names.
+        let finding = match param.name.contains(' ') {
+            true => finding.help(format!("write it between the parentheses: `{what}(…)`")),
+            false => finding.help(format!("write `{}: …`", param.name)),
+        };
         self.report(match declared {
             Some(_) => finding.label(param.span, "declared here"),
             None => finding,
@@ -181,6 +186,9 @@ impl<'t> Checker<'t> {
             }
             _ if TIME_LIMITS.contains(&&*label.node) && Guide::takes_arguments(what) => {
                 finding.help(format!("a time limit follows: `{what} … within 5 min`"))
+            }
+            _ if params.iter().all(|param| param.name.contains(' ')) => {
+                finding.help("leave it out: what a behavior that is given takes has its order only")
             }
             Some(help) => finding.help(help),
             None => finding,

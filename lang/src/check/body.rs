@@ -1,6 +1,6 @@
 //! Blocks and the statements in them.
 
-use super::capacities::Capacities;
+use super::capacities::{Capacities, Declared};
 use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
 use crate::code::Code;
@@ -16,13 +16,15 @@ impl<'t> Checker<'t> {
     pub(super) fn check_fn(&mut self, m: usize, f: &'t tree::Function) {
         let Some(&super::Def::Fn(id)) = self.names[m].get(&f.name.node) else { return };
         let capacities = self.nominal_capacities(id);
-        self.fn_body(id, m, f, capacities);
+        let is_several = !capacities.is_empty();
+        self.as_declared(Declared::Fn(id), is_several, |c| c.fn_body(id, m, f, capacities));
     }
 
     /// The body of a function, by its signature.
     pub(super) fn fn_body(&mut self, id: usize, m: usize, f: &'t tree::Function, capacities: Capacities) {
         let signature = self.fn_signatures[id].clone();
-        let scope = super::Scope { capacities, ..super::Scope::new(m, Setting::Function) };
+        let is_nominal = self.takes_any_capacity(id);
+        let scope = super::Scope { capacities, is_nominal, ..super::Scope::new(m, Setting::Function) };
         let result = signature.result.clone().unwrap_or(Type::Unknown);
         let (body, scope) = self.within(scope, |c| {
             c.declare_params(&f.params, &signature.params);

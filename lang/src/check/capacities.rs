@@ -20,6 +20,13 @@ pub(super) const NOMINAL: u32 = 8;
 /// Names of capacities, and what they are.
 pub(super) type Capacities = Vec<(String, u32)>;
 
+/// What is declared once, and is several by what it is given: by its number.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Declared {
+    Fn(usize),
+    Activity(usize),
+}
+
 /// A function of lists of any capacity.
 #[derive(Clone)]
 struct Template<'t> {
@@ -46,7 +53,6 @@ impl<'t> Checker<'t> {
             return Vec::new();
         }
         let nominal: Vec<u32> = names.iter().map(|_| NOMINAL).collect();
-        self.templates.made.insert((id, nominal.clone()), id);
         self.templates.of.insert(id, Template { module: m, function, names: names.clone() });
         names.into_iter().zip(nominal).collect()
     }
@@ -104,8 +110,14 @@ impl<'t> Checker<'t> {
             capacities[place] = capacities[place].max(capacity);
             given.push(Some(Given::Known(value)));
         }
-        let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
-        let signature = self.fn_signatures[made].clone();
+        let (made, signature) = if self.scope.is_nominal {
+            // Who calls it is looked at by itself: nothing is made for that.
+            let (params, result) = self.signature_for(&template, &capacities);
+            (id, Signature { params, result: Some(result), ..signature })
+        } else {
+            let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
+            (made, self.fn_signatures[made].clone())
+        };
         let result = signature.result.clone().unwrap_or(Type::Unknown);
         match self.values(&signature.name, &signature.params, given, failed, (span, Some(signature.span))) {
             Some(values) => self.make(ExprKind::Call(made, values), result, span),
@@ -119,8 +131,7 @@ impl<'t> Checker<'t> {
         if let Some(made) = self.templates.made.get(&key) {
             return Some(*made);
         }
-        // Each is there once for nobody.
-        if self.templates.made.len() >= INSTANCES_MAX + self.templates.of.len() {
+        if self.templates.made.len() >= INSTANCES_MAX {
             let message = format!("functions are called with lists of more than {INSTANCES_MAX} capacities");
             let finding = Diagnostic::error(Code::LimitsCapacities, span, message);
             self.report(finding.help("declare lists that are given to one function with one capacity"));
@@ -156,15 +167,32 @@ impl<'t> Checker<'t> {
         while let Some((made, id, capacities)) = self.templates.ahead.pop() {
             let Some(template) = self.templates.of.get(&id).cloned() else { continue };
             let named = template.names.iter().cloned().zip(capacities).collect();
-            let before = self.findings.len();
             self.fn_body(made, template.module, template.function, named);
-            // What is wrong with it for any capacity has been told.
-            let new = self.findings.split_off(before);
-            for finding in new {
-                let is_known = |old: &Diagnostic| old.code == finding.code && old.span() == finding.span();
-                if !self.findings.iter().any(is_known) {
-                    self.findings.push(finding);
-                }
+        }
+    }
+
+    /// Works on a body as it is declared: what is wrong with it there is kept until it is known how it is called.
+    pub(super) fn as_declared(&mut self, declared: Declared, is_several: bool, work: impl FnOnce(&mut Self)) {
+        let before = self.findings.len();
+        work(self);
+        if is_several {
+            let found: Vec<Diagnostic> = self.findings.drain(before..).collect();
+            self.nominal_findings.extend(found.into_iter().map(|finding| (declared, finding)));
+        }
+    }
+
+    /// Tells what is wrong with what is several by what it is given: as it is declared where nobody calls it, else what is wrong as it is called.
+    pub(super) fn tell_nominal(&mut self) {
+        let is_called = |c: &Self, declared: Declared| match declared {
+            Declared::Fn(id) => c.templates.made.keys().any(|(of, _)| *of == id),
+            Declared::Activity(id) => c.is_made_of(id),
+        };
+        for (declared, finding) in std::mem::take(&mut self.nominal_findings) {
+            let is_same = |other: &Diagnostic| other.code == finding.code && other.span() == finding.span();
+            let recurs =
+                self.findings.iter().any(is_same) || self.inherited_findings.iter().any(|(other, ..)| is_same(other));
+            if recurs || !is_called(self, declared) {
+                self.report(finding);
             }
         }
     }

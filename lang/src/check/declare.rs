@@ -102,6 +102,7 @@ impl<'t> Checker<'t> {
         }
         self.check_made_activities();
         self.check_made_functions();
+        self.tell_nominal();
         self.holes_are_read();
         if self.recursion() || self.calls_too_deep() {
             return;

@@ -1,7 +1,7 @@
 //! What a checked block does to time and to what follows it.
 
 use super::timed::guidance_ends;
-use crate::hir::{Action, Block, Expr, ExprKind, Stmt, StmtKind, Timed};
+use crate::hir::{Action, ActivityId, Block, Body, Expr, ExprKind, Hir, Stmt, StmtKind, Timed};
 use crate::source::Span;
 
 /// Whether every path through a block takes time, or leaves it for good.
@@ -17,27 +17,53 @@ pub(crate) fn takes_time(block: &Block) -> bool {
     })
 }
 
-/// How long a block takes at least, s, by the times that its statements name. Calls are not asked.
-pub(crate) fn least_time(block: &Block) -> f64 {
-    let of = |stmt: &Stmt| match &stmt.kind {
-        StmtKind::Timed(timed) => least_time_of(timed),
-        StmtKind::With(_, body) => least_time(body),
-        StmtKind::If(_, a, b) => least_time(a).min(least_time(b)),
-        _ => first_round(stmt).map_or(0.0, least_time),
-    };
-    block.stmts.iter().map(of).sum()
+/// How long an activity takes at least, s, by the times that its statements name; so deep in calls at most.
+pub(crate) fn least_time(hir: &Hir, activity: ActivityId, depth: usize) -> f64 {
+    match &hir.activities[activity].body {
+        Body::Sequence(block) => least_time_of_block(hir, block, depth),
+        Body::Table { .. } | Body::Amend { .. } => 0.0,
+    }
 }
 
-fn least_time_of(timed: &Timed) -> f64 {
-    let ends_by_itself = match &timed.action {
-        Action::Guide(guide, args) => guidance_ends(*guide, args),
-        Action::Keep(..) | Action::Watch => false,
-        Action::Call(..) | Action::Override(_) | Action::Ask(..) => true,
+fn least_time_of_block(hir: &Hir, block: &Block, depth: usize) -> f64 {
+    let of = |block: &Block| least_time_of_block(hir, block, depth);
+    let of_stmt = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Timed(timed) => least_time_of(hir, timed, depth),
+        StmtKind::With(_, body) | StmtKind::Loop(body) => of(body),
+        StmtKind::If(_, a, b) => of(a).min(of(b)),
+        StmtKind::ForRange { first, last, inclusive, body, .. } => {
+            let rounds = last.range.low - first.range.high + if *inclusive { 1.0 } else { 0.0 };
+            rounds.max(0.0).floor() * of(body)
+        }
+        StmtKind::ForList { list, body, .. } => match &list.kind {
+            ExprKind::List(elements) => elements.len() as f64 * of(body),
+            _ => 0.0,
+        },
+        _ => first_round(stmt).map_or(0.0, of),
     };
-    if ends_by_itself || timed.until.is_some() {
+    // What may finish on the way may take no longer.
+    let last = block.stmts.iter().position(may_finish).map_or(block.stmts.len(), |at| at + 1);
+    block.stmts[..last].iter().map(of_stmt).sum()
+}
+
+fn may_finish(stmt: &Stmt) -> bool {
+    matches!(stmt.kind, StmtKind::Finish(_))
+        || stmt.blocks().into_iter().any(|block| block.stmts.iter().any(may_finish))
+}
+
+fn least_time_of(hir: &Hir, timed: &Timed, depth: usize) -> f64 {
+    let own = match &timed.action {
+        Action::Guide(guide, args) if guidance_ends(*guide, args) => 0.0,
+        Action::Guide(..) | Action::Keep(..) | Action::Watch => f64::INFINITY,
+        Action::Call(id, _) => depth.checked_sub(1).map_or(0.0, |depth| least_time(hir, *id, depth)),
+        Action::Override(_) | Action::Ask(..) => 0.0,
+    };
+    if timed.until.is_some() {
         return 0.0;
     }
-    [&timed.duration, &timed.within].into_iter().flatten().map(|time| time.range.low).reduce(f64::min).unwrap_or(0.0)
+    let bounds = [&timed.duration, &timed.within].into_iter().flatten().map(|time| time.range.low);
+    let bound = bounds.reduce(f64::min).unwrap_or(f64::INFINITY);
+    own.min(bound)
 }
 
 /// What a loop does that goes round at least once: over the edges of an area, a range that holds a number, a list that is written out.

@@ -3,12 +3,12 @@
 //! runs.
 
 use super::args::Given;
-use super::capacities::{Capacities, INSTANCES_MAX, NOMINAL, capacity};
+use super::capacities::{Capacities, Declared, INSTANCES_MAX, NOMINAL, capacity};
 use super::expr::article;
 use super::names::Found;
 use super::{Checker, Def, ParamInfo, Scope, Setting, Signature};
 use crate::code::Code;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Action, ActivityId, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, TyKind};
@@ -207,6 +207,9 @@ impl<'t> Checker<'t> {
         let values_of: Vec<ParamInfo> = params.iter().filter(|param| param.behavior.is_none()).cloned().collect();
         let values = self.values(&signature.name, &values_of, given, failed, places)?;
         let (result, signature) = (signature.result.clone(), Signature { params: values_of, ..signature });
+        if self.scope.is_nominal {
+            return Some((Action::Call(id, values), result));
+        }
         let made = Made { id: 0, of: id, params, behaviors, capacities, called: span };
         Some((Action::Call(self.made_with(made, signature)?, values), result))
     }
@@ -313,15 +316,15 @@ impl<'t> Checker<'t> {
         Some(id)
     }
 
+    /// Whether anything is made of it.
+    pub(super) fn is_made_of(&self, id: ActivityId) -> bool {
+        self.tours.made.keys().any(|(of, ..)| *of == id)
+    }
+
     /// The bodies of what calls have made. What is wrong with one only with what it is given is told where that is.
     pub(super) fn check_made_activities(&mut self) {
         while let Some(made) = self.tours.ahead.pop() {
             let Some(Tour { module, activity: a, capacities }) = self.tours.of.get(&made.of).cloned() else { continue };
-            let whole = a.name.span.to(a.body.span);
-            let is_wrong = |f: &Diagnostic| f.severity == Severity::Error && whole.holds(f.span());
-            if self.findings.iter().any(is_wrong) {
-                continue;
-            }
             let before = self.findings.len();
             let capacities = named(&capacities, &made.capacities);
             self.activity_with(module, made.id, a, (made.params, &made.behaviors, capacities));
@@ -336,7 +339,10 @@ impl<'t> Checker<'t> {
         let params = self.activity_signatures[id].params.clone();
         let stand_ins = self.stand_ins(&params);
         let capacities = self.tours.of.get(&id).map(|tour| nominal(&tour.capacities)).unwrap_or_default();
-        self.activity_with(m, id, a, (params, &stand_ins, capacities));
+        let is_several = self.tours.of.contains_key(&id);
+        self.as_declared(Declared::Activity(id), is_several, |c| {
+            c.activity_with(m, id, a, (params, &stand_ins, capacities));
+        });
     }
 
     /// An activity with what it is given: its parameters, those that are behaviors, and the capacities of its lists.
@@ -348,7 +354,8 @@ impl<'t> Checker<'t> {
         (infos, behaviors, capacities): (Vec<ParamInfo>, &[ActivityId], Capacities),
     ) {
         let Signature { name, span, .. } = self.activity_signature(id).clone();
-        let scope = Scope { derived: self.derived(a), capacities, ..Scope::new(m, Setting::Body) };
+        let is_nominal = self.tours.of.contains_key(&id);
+        let scope = Scope { derived: self.derived(a), capacities, is_nominal, ..Scope::new(m, Setting::Body) };
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &infos);
             let given = a.params.iter().filter(|param| is_behavior(param)).zip(behaviors);

@@ -247,6 +247,8 @@ struct Scope {
     tail: Option<Span>,
     /// A strategy that is derived: what it says itself, and the modules in which its parts stand.
     derived: Option<whole::Derived>,
+    /// In a body that is looked at by itself, with what stands in for what it is given.
+    is_nominal: bool,
     /// The parameters that are behaviors.
     behaviors: Vec<given_behaviors::GivenBehavior>,
     /// What names of capacities stand for, in a function of lists of any.
@@ -269,6 +271,7 @@ impl Scope {
             value_from: None,
             tail: None,
             derived: None,
+            is_nominal: false,
             behaviors: Vec::new(),
             capacities: Vec::new(),
         }
@@ -308,6 +311,8 @@ pub struct Checker<'t> {
     fitted: Vec<hir::ClauseUse>,
     fn_signatures: Vec<Signature>,
     templates: capacities::Templates<'t>,
+    /// What is wrong with such ones as they are declared, with what stands in for what they are given: of a function or of an activity.
+    nominal_findings: Vec<(capacities::Declared, Diagnostic)>,
     tours: given_behaviors::Tours<'t>,
     /// Units whose turn comes yet.
     units_ahead: UnitsAhead<'t>,
@@ -382,6 +387,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         fn_signatures: Vec::new(),
         templates: capacities::Templates::default(),
         tours: given_behaviors::Tours::default(),
+        nominal_findings: Vec::new(),
         units_ahead: UnitsAhead::default(),
         fns_ahead: BTreeMap::new(),
         activity_signatures: Vec::new(),

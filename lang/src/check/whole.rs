@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// What is said where a strategy names its base, of what is wrong with that only here.
 const OF_BASE: &str = "with what this strategy says itself";
 /// Bytes of text that strategies have of others, in all of a script.
-const INHERITED_MAX: usize = 1 << 20;
+const INHERITED_BYTES_MAX: usize = 1 << 20;
 
 /// A strategy by its place: its module, and which item of that it is.
 type Place = (usize, usize);
@@ -56,19 +56,22 @@ pub(super) fn strategies(modules: &[Module]) -> Whole<'_> {
     let (Lineage { order, bases }, unsound) = Bases { code: Code::RulesDerived, names, bases }.lineage();
     findings.extend(unsound);
     let mut whole = modules.to_vec();
-    let mut room = INHERITED_MAX;
+    let mut room = INHERITED_BYTES_MAX;
     let mut baseless = BTreeSet::new();
     for id in order {
         let (m, i) = known.all[id];
         let Some((own, Some(path))) = strategy(&modules[m].tree.items[i]) else { continue };
-        let base = bases[id].map(|base| known.all[base]);
+        let base = bases[id].map(|base| known.all[base]).filter(|&(m, i)| {
+            strategy(&modules[m].tree.items[i]).is_some_and(|(base, _)| !baseless.contains(&base.name.span))
+        });
         let Some((base, _)) = base.and_then(|(m, i)| strategy(&whole[m].tree.items[i])) else {
             baseless.insert(own.name.span);
             continue;
         };
         let taken: usize = base.body.clauses.iter().map(|clause| (clause.span.end - clause.span.start) as usize).sum();
         let Some(left) = room.checked_sub(taken) else {
-            let message = format!("with this strategies have more than {} MiB of text of others", INHERITED_MAX >> 20);
+            let message =
+                format!("with this, strategies have more than {} MiB of text of others", INHERITED_BYTES_MAX >> 20);
             findings.push(
                 Diagnostic::error(Code::RulesDerived, path.span, message)
                     .help("derive fewer, or let what they share be behaviors of a module, which they call"),
@@ -188,7 +191,7 @@ fn what(kind: &ActivityKind) -> &'static str {
 }
 
 /// A strategy with all that it has of its base. A declaration of a name that the base has stands in the place of the base's, and what is written
-/// before it, and is new, before that; the rest of what is new comes after the base's declarations, and new behaviors after its behaviors. A table is
+/// before such ones, and is new, before the first of them; the rest of what is new comes after the base's declarations, and new behaviors after its behaviors. A table is
 /// one: who writes a rule writes it whole, and behaviors of the base that it does not name are left out.
 fn derive(base: &Activity, own: &Activity) -> Activity {
     let (mine, my_table): (Vec<&Clause>, Vec<&Clause>) =
@@ -206,14 +209,18 @@ fn derive(base: &Activity, own: &Activity) -> Activity {
     let (mut new, mut new_behaviors) = (Vec::new(), Vec::new());
     let mut before: Vec<Vec<&Clause>> = vec![Vec::new(); theirs.len()];
     let mut instead: Vec<Option<&Clause>> = vec![None; theirs.len()];
-    for clause in mine {
-        let new = if is_behavior(clause) { &mut new_behaviors } else { &mut new };
-        match subject(clause).and_then(|subject| places.remove(&subject)) {
-            Some(at) => {
-                before[at].append(new);
+    // The first place of what follows on a clause, of declarations and of behaviors.
+    let mut next: [Option<usize>; 2] = [None, None];
+    for clause in mine.into_iter().rev() {
+        let next = &mut next[usize::from(is_behavior(clause))];
+        match (subject(clause).and_then(|subject| places.remove(&subject)), *next) {
+            (Some(at), following) => {
                 instead[at] = Some(clause);
+                *next = Some(following.map_or(at, |following| following.min(at)));
             }
-            None => new.push(clause),
+            (None, Some(following)) => before[following].insert(0, clause),
+            (None, None) if is_behavior(clause) => new_behaviors.insert(0, clause),
+            (None, None) => new.insert(0, clause),
         }
     }
     let mut clauses: Vec<Clause> = Vec::with_capacity(base.body.clauses.len() + own.body.clauses.len());

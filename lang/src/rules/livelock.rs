@@ -15,6 +15,9 @@ const WORK: usize = 1 << 23;
 /// ... of which a look at all that is assigned on a way takes so much.
 const WAY_WORK: usize = 1 << 10;
 
+/// Calls within calls that are followed for how long a behavior takes.
+const CALLS_MAX: usize = 4;
+
 /// The warnings on a switching table.
 pub fn check(hir: &Hir, activity: ActivityId) -> Vec<Diagnostic> {
     let strategy = &hir.activities[activity];
@@ -146,9 +149,9 @@ impl<'h> Table<'h> {
     /// A rhythm that is over before what it leads to is done: what it left goes on for one tick of each round.
     fn starves(&self, rule: &'h Rule) -> Option<Diagnostic> {
         let Target::Behavior(to) = rule.target else { return None };
-        let Body::Sequence(block) = &self.hir.activities[self.behaviors[to]].body else { return None };
+        let least = least_time(self.hir, self.behaviors[to], CALLS_MAX);
         let is_over = |way: &Way<'h>| match &way.0.kind {
-            ExprKind::Every(time) => way.1 && time.range.high <= least_time(block),
+            ExprKind::Every(time) => way.1 && least < f64::INFINITY && time.range.high <= least,
             _ => false,
         };
         if !rule.back || !self.signals.ways(&rule.on).iter().any(is_over) {

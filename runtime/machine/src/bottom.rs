@@ -39,7 +39,7 @@ const LOW_SHARE: f64 = 0.25;
 const LOW_MAX_M: f64 = 0.5;
 /// A depth or an altitude is told to be held that is given otherwise than asked by more than this, m: it follows the bottom.
 const TOLD_M: f64 = 0.5;
-/// Who is asked to be shallower by more than this, m, is asked to rise.
+/// Who is told to be shallower by more than this, m, is told to rise.
 const RISE_M: f64 = 2.0;
 /// A chart is asked for so many standard deviations of the position around it, and for so much more, m.
 const CHART_SIGMAS: f64 = 3.0;
@@ -146,7 +146,7 @@ impl Run {
             }
             None => Some(still),
         };
-        if self.is_asked_to_rise() {
+        if self.is_told_to_rise() {
             self.state.bottom.in_rise.begin(tick);
         }
         let told = |at: Option<u32>, ticks: f64| {
@@ -198,12 +198,13 @@ impl Run {
         (bottom.heard, bottom.lone, bottom.way) = (Some(heard_now), None, 0.0);
     }
 
-    /// Whether the mission asks for a depth above that of the vehicle, or for a greater altitude than it has.
-    fn is_asked_to_rise(&self) -> bool {
-        match self.state.asked.vertical {
-            Vertical::Depth(asked) => asked < self.depth() - RISE_M,
-            Vertical::Altitude(asked) => self.sounded().is_some_and(|altitude| asked > altitude + RISE_M),
-        }
+    /// Whether the mission asks for a depth above that of the vehicle, or for a greater altitude than it has, or a limit leads up.
+    fn is_told_to_rise(&self) -> bool {
+        let rises = |vertical: Vertical| match vertical {
+            Vertical::Depth(metres) => metres < self.depth() - RISE_M,
+            Vertical::Altitude(metres) => self.sounded().is_some_and(|altitude| metres > altitude + RISE_M),
+        };
+        rises(self.state.asked.vertical) || self.state.command.is_some_and(|command| rises(command.vertical))
     }
 
     /// Where the vehicle is, unless that is not known any more.

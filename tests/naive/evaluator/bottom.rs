@@ -203,7 +203,7 @@ impl Bottom {
         apart(w, self.echo.and_then(|echo| echo.place)).max(self.way)
     }
 
-    /// Whether what is asked for is a rise of more than 2 m.
+    /// Whether what is told is a rise of more than 2 m.
     fn rises(&self, w: &World, asked: Vertical) -> bool {
         match asked {
             Vertical::Depth(asked) => asked < w.depth().unwrap_or(0.0) - 2.0,
@@ -247,7 +247,8 @@ impl Bottom {
                 self.least = (0, None);
             }
         }
-        if self.rises(w, asked) {
+        let commanded = self.commanded.map(|command| command.vertical);
+        if self.rises(w, asked) || commanded.is_some_and(|commanded| self.rises(w, commanded)) {
             self.rise.asked(w.tick);
         }
         let Some(altitude) = w.lately("altitude", 0) else { return };

@@ -90,6 +90,12 @@ pub(super) fn unbraced(before: &str, rest: &str) -> Option<Habit> {
 pub(super) fn derived(before: &str, rest: &str) -> Option<Habit> {
     let head = before.trim();
     let kind = word(head);
+    if matches!(kind, "behavior" | "overlay" | "mission") && !head.contains(['{', '=']) && rest.starts_with('=') {
+        return Some(Habit {
+            message: Some("strategies, scenarios and vehicles are derived from others, nothing else is".to_string()),
+            help: "call the other, with other arguments".to_string(),
+        });
+    }
     if !matches!(kind, "scenario" | "strategy" | "vehicle") || head.contains('{') {
         return None;
     }
