@@ -198,7 +198,7 @@ impl Run {
             }
             if run.tick().is_multiple_of(TICKS_AT_ONCE) {
                 bar.set_position(run.tick() / 10);
-                bar.set_message(run.active().join(" > "));
+                bar.set_message(run.under_way().join(" > "));
             }
         }
     }

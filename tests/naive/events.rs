@@ -43,6 +43,10 @@ fn line(p: &Program, event: &Event) -> String {
             let fields = site.fields.iter().map(|(label, field)| (label.as_str(), &field.shape));
             format!("report {}: {}", site.name, named(fields, words))
         }
+        Event::Began(statement, words) => {
+            let rounds = words.chunks(3).map(|round| format!(" {} of {} at {}", round[0], round[1], round[2]));
+            format!("begin {}{}", p.statements[*statement as usize].place, rounds.collect::<String>())
+        }
         Event::Logged(text) => format!("log {text}"),
         Event::Amending(id, asked, given) => format!("amend {} {asked:?} {given:?}", name(*id)),
         Event::AmendingEnded(id) => format!("amend {} no more", name(*id)),

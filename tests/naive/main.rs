@@ -113,7 +113,7 @@ fn generated() {
         "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
         "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, no, no for, after",
         "becomes after, every, false and, or over time, becomes of for",
-        "event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
+        "event: begin, event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
         "event: leave Done, event: leave Rule, event: leave Until, event: leave TimedOut, event: leave Preempted",
         "event: leave Aborted, event: end completed, event: end aborted, event: end timed_out",
     ];

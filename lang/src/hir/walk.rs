@@ -1,8 +1,8 @@
 //! Walks over the checked program: the statements of a block, the expressions of anything.
 
 use super::{
-    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Stmt, StmtKind, Target,
-    TextPart, With,
+    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Kind, Stmt, StmtKind,
+    Target, TextPart, With,
 };
 use crate::source::Span;
 use crate::types::Type;
@@ -82,6 +82,12 @@ impl Activity {
         activity_children(self, &mut |e| e.visit(f));
     }
 
+    /// Whether its name tells what it does: it is a behavior of a single statement that takes time, and does that once.
+    pub fn is_told_by_name(&self) -> bool {
+        let does_one_thing = matches!(&self.body, Body::Sequence(block) if block.beginnings() <= 1);
+        self.kind == Kind::Behavior && does_one_thing
+    }
+
     /// The activities that it names itself.
     pub fn calls(&self) -> Vec<ActivityId> {
         let mut calls: Vec<ActivityId> = self.calls_with_args().into_iter().map(|(id, _)| id).collect();
@@ -144,6 +150,14 @@ fn overlays(items: &[With]) -> impl Iterator<Item = (ActivityId, &[Expr])> {
     })
 }
 
+impl StmtKind {
+    /// Whether what is inside it may begin again.
+    fn is_loop(&self) -> bool {
+        use StmtKind::{ForEdges, ForList, ForRange, ForRows, Loop, While};
+        matches!(self, ForRange { .. } | ForList { .. } | ForEdges { .. } | ForRows { .. } | While { .. } | Loop(_))
+    }
+}
+
 impl Stmt {
     /// The blocks directly inside it.
     pub fn blocks(&self) -> Vec<&Block> {
@@ -167,6 +181,19 @@ impl Stmt {
 }
 
 impl Block {
+    /// How many statements in it take time; more than one where a single one may begin again.
+    pub fn beginnings(&self) -> usize {
+        let of = |stmt: &Stmt| {
+            let inside: usize = stmt.blocks().into_iter().map(Block::beginnings).sum();
+            match &stmt.kind {
+                StmtKind::Timed(_) => 1 + inside,
+                kind if kind.is_loop() => inside.saturating_mul(2),
+                _ => inside,
+            }
+        };
+        self.stmts.iter().map(of).sum()
+    }
+
     /// Calls `f` on every statement, each before those of the blocks inside it.
     pub fn each<'e>(&'e self, f: &mut dyn FnMut(&'e Stmt)) {
         for stmt in &self.stmts {

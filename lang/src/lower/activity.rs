@@ -239,7 +239,9 @@ impl<'a> Lowering<'a> {
         match body {
             hir::Body::Sequence(block) => {
                 let body = self.here();
+                self.frame.told_by_name = self.hir.activities[id].is_told_by_name();
                 self.stmts(&block.stmts);
+                self.frame.told_by_name = false;
                 self.emit(Op::End);
                 Body::Sequence(body)
             }

@@ -6,7 +6,7 @@ use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
 use albacore_arithmetic::Operator;
-use albacore_program::{AreaOp, Compute, ListOp, ROWS_WORDS, Slot, When};
+use albacore_program::{AreaOp, Compute, ListOp, ROWS_WORDS, Rounds, Slot, When};
 
 impl<'a> Lowering<'a> {
     pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
@@ -14,6 +14,11 @@ impl<'a> Lowering<'a> {
         self.scratch(|l| {
             l.expr_into(first, counter);
             l.expr_into(last, end);
+        });
+        let first_round = (body.beginnings() > 0).then(|| {
+            let first = self.lasting(1);
+            self.copy(first, counter, 1);
+            first
         });
         let goes_on = |to| {
             match inclusive {
@@ -27,7 +32,10 @@ impl<'a> Lowering<'a> {
         let top = self.here();
         let to = self.frame.vars[var];
         self.copy(to, counter, 1);
-        self.body(body);
+        match first_round {
+            Some(first) => self.walking(var, Rounds::Range { at: to, first, end, inclusive }, body),
+            None => self.body(body),
+        }
         let mut leaves: Vec<_> = none.into_iter().collect();
         if inclusive && last.range.high >= INT_MAX {
             // Where counting may come to its own end, nothing lies beyond the last: it is looked for before one is added.
@@ -41,7 +49,7 @@ impl<'a> Lowering<'a> {
         self.land_all(leaves);
     }
 
-    fn count_up(&mut self, counter: Slot) {
+    pub(super) fn count_up(&mut self, counter: Slot) {
         self.scratch(|l| {
             let one = l.number(1.0);
             l.emit(Compute::two(Operator::AddInt, counter, counter, one));
@@ -62,7 +70,7 @@ impl<'a> Lowering<'a> {
         let done = self.emit(Compute::jump_unless(found, 0));
         let to = self.frame.vars[var];
         self.copy(to, found + 1, element);
-        self.body(body);
+        self.walking(var, Rounds::Behind(counter, copy), body);
         self.count_up(counter);
         self.emit(Compute::jump(top));
         self.land(done);
@@ -97,7 +105,7 @@ impl<'a> Lowering<'a> {
             l.emit(AreaOp::RowAt { to, there, rows, area, index: counter });
             l.emit(Compute::jump_unless(there, 0))
         });
-        self.body(body);
+        self.walking(var, Rounds::Behind(counter, rows), body);
         self.count_up(counter);
         self.emit(Compute::jump(top));
         self.land(done);
@@ -110,7 +118,7 @@ impl<'a> Lowering<'a> {
         let top = self.here();
         let to = self.frame.vars[var];
         self.emit(Compute::EdgeAt { to, area, index: counter });
-        self.body(body);
+        self.walking(var, Rounds::Behind(counter, area), body);
         self.count_up(counter);
         // An area has an edge: there is no way past the first round.
         self.emit(Compute::Jump { to: top, when: When::Less(counter, area) });

@@ -15,6 +15,7 @@ mod prepare;
 mod scenario;
 mod stmt;
 mod table;
+mod tell;
 mod test;
 mod watch;
 
@@ -139,6 +140,9 @@ struct Frame {
     /// declarations.
     overlays: Vec<u32>,
     declared_overlays: Vec<u32>,
+    /// The loops around what is being lowered, from outside in, and whether it needs no telling when it begins.
+    loops: Vec<tell::Around>,
+    told_by_name: bool,
     /// In a guard: whether the body has come to its end.
     done: bool,
     /// The subroutine that sorts a variable that is an ordered list.
@@ -331,6 +335,7 @@ impl<'a> Lowering<'a> {
             rules: p.rules.len(),
             recordings: p.recordings.len(),
             reports: p.reports.len(),
+            statements: p.statements.len(),
             texts: p.texts.len(),
             memories: p.memories.len(),
             findings: self.findings.len(),
@@ -348,6 +353,7 @@ impl<'a> Lowering<'a> {
         p.rules.truncate(mark.rules);
         p.recordings.truncate(mark.recordings);
         p.reports.truncate(mark.reports);
+        p.statements.truncate(mark.statements);
         p.texts.truncate(mark.texts);
         p.memories.truncate(mark.memories);
         self.findings.truncate(mark.findings);
@@ -442,6 +448,7 @@ struct Mark {
     rules: usize,
     recordings: usize,
     reports: usize,
+    statements: usize,
     texts: usize,
     memories: usize,
     findings: usize,

@@ -2,6 +2,7 @@
 
 use super::{Lowering, Sorter};
 use crate::hir::{Action, Block, Expr, Stmt, StmtKind, Timed, With};
+use crate::source::Span;
 use crate::types::Type;
 use albacore_arithmetic::Operator;
 use albacore_program::{
@@ -65,12 +66,13 @@ impl<'a> Lowering<'a> {
             StmtKind::ForRows { var, area, step, near, body } => self.for_rows(*var, area, (step, near), body),
             StmtKind::While { condition, bind, body } => self.while_loop(condition, *bind, body),
             StmtKind::Loop(body) => {
+                let begun = self.rounds_begun(body);
                 let top = self.here();
-                self.body(body);
+                self.going_round(begun, body);
                 self.emit(Compute::jump(top));
             }
             StmtKind::With(items, body) => self.with(items, body),
-            StmtKind::Timed(timed) => self.timed(timed),
+            StmtKind::Timed(timed) => self.timed(timed, stmt.span),
             StmtKind::Finish(value) => {
                 if let Some(e) = value {
                     let to = self.frame.result;
@@ -121,6 +123,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn while_loop(&mut self, condition: &Expr, bind: Option<usize>, body: &Block) {
+        let begun = self.rounds_begun(body);
         let top = self.here();
         let unless = self.scratch(|l| {
             let value = l.expr(condition);
@@ -131,7 +134,7 @@ impl<'a> Lowering<'a> {
             }
             unless
         });
-        self.body(body);
+        self.going_round(begun, body);
         self.emit(Compute::jump(top));
         self.land(unless);
     }
@@ -208,7 +211,7 @@ impl<'a> Lowering<'a> {
         self.copy(at, saved, setpoints::WORDS);
     }
 
-    fn timed(&mut self, timed: &Timed) {
+    fn timed(&mut self, timed: &Timed, span: Span) {
         let owner = self.frame.header;
         let begun = self.lasting(1);
         self.emit(Compute::Now { to: begun, owner });
@@ -221,6 +224,7 @@ impl<'a> Lowering<'a> {
         let ended = self.lasting(1);
         let result = timed.result.map(|var| self.frame.vars[var]);
 
+        self.tell(timed, span);
         let action = self.begin(&timed.action, setpoints, ended);
         let wait = self.emit(Op::Yield);
         self.update_timers(&timers, owner, Some(begun));

@@ -85,6 +85,9 @@ pub enum Event {
     Asked(u32),
     /// What became of that.
     Answered(u32, Heard),
+    /// A statement begins: index into the program's statements, and [`albacore_program::ROUND_WORDS`] words of each loop around it.
+    /// It is told and decides nothing: no digest holds it.
+    Began(u32, Vec<f64>),
 }
 
 /// What a payload has answered.

@@ -132,6 +132,7 @@ impl Run {
                 Op::Heard { id, answer, ended } => self.hear(b(id), b(answer), b(ended)),
                 Op::Unanswered { id } => self.unanswered(b(id)),
 
+                Op::Tell { statement } => self.tell_beginning(p, statement, base),
                 Op::Report { site } => self.report(p, site, base),
                 Op::Log { text } => self.log(p, text, base),
                 Op::Changed { memory } => self.remember(p, memory, base),

@@ -26,6 +26,7 @@ mod rest;
 mod sinking;
 mod slope;
 mod state;
+mod tell;
 mod trig;
 
 pub use allowance::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX, TEXT_BYTES_MAX};

@@ -15,6 +15,7 @@ pub mod senses;
 mod setpoint;
 mod shape;
 mod slot;
+mod statement;
 mod verify;
 
 pub use activity::{
@@ -27,6 +28,7 @@ pub use op::{AreaOp, Compute, ListOp, Op, When};
 pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind, setpoints};
 pub use shape::{AREA_CORNER_WORDS, AREA_WORDS, Display, ROWS_WORDS, Shape};
 pub use slot::{ABSOLUTE, Addr, Slot};
+pub use statement::{Loop, ROUND_WORDS, Rounds, Statement, StatementPart};
 pub use verify::{Claim, Claims, Unit, Unsound};
 
 pub(crate) use shape::EDGE_WORDS;
@@ -36,7 +38,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 10;
+pub const PROGRAM_VERSION: u32 = 11;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -57,6 +59,8 @@ pub struct Program {
     pub asks: Vec<String>,
     /// Places that report.
     pub reports: Vec<ReportSite>,
+    /// Statements that tell when they begin.
+    pub statements: Vec<Statement>,
     /// Texts with their holes: of `log` and `abort`.
     pub texts: Vec<Text>,
     /// Memories that rules change, for the trace.

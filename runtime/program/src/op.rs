@@ -75,6 +75,8 @@ pub enum Op {
     /// The mission ends.
     Abort { why: u32 },
     // ---- what the world hears
+    /// A statement begins: index into [`crate::Program::statements`].
+    Tell { statement: u32 },
     /// A result.
     Report { site: u32 },
     /// A line of the trace.

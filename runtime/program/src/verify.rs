@@ -51,6 +51,7 @@ impl Program {
                 }
                 Op::PutOn { overlay } | Op::TakeOff { overlay } => (*overlay as usize) < self.overlays.len(),
                 Op::Report { site } => (*site as usize) < self.reports.len(),
+                Op::Tell { statement } => (*statement as usize) < self.statements.len(),
                 Op::Log { text } | Op::Abort { why: text } => (*text as usize) < self.texts.len(),
                 Op::AskPayload { action, .. } => (*action as usize) < self.asks.len(),
                 Op::Changed { memory } => (*memory as usize) < self.memories.len(),

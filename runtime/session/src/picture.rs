@@ -51,6 +51,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         start: results.start,
         track: track.points.clone(),
         behaviors: track.behaviors.clone(),
+        rounds: track.rounds.clone(),
         detections: track.detections.clone(),
         reports: summary.reports.iter().filter_map(place).collect(),
         ..of_world(scenario, scenario.environment.flow.mean)

@@ -94,11 +94,9 @@ impl Run {
         self.memory.results.outcome()
     }
 
-    /// The names of the active activities, from outside in.
-    pub fn active(&self) -> Vec<&str> {
-        let machine = self.driver.machine();
-        let name = |id: u32| machine.program().activities[id as usize].name.as_str();
-        machine.active().into_iter().map(name).collect()
+    /// The active activities, from outside in, and the statement that is under way.
+    pub fn under_way(&self) -> Vec<String> {
+        self.memory.trace.lines().under_way()
     }
 
     /// Where the vehicle truly is; on a link, where it believes to be.

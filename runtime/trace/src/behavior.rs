@@ -1,6 +1,7 @@
 //! The behavior trace: a line for everything that happened, short enough to read and stable enough to compare.
 
 use crate::active::Active;
+use crate::beginnings::Beginnings;
 use crate::wording::Wording;
 use albacore_geometry::{Heading, Point};
 use albacore_machine::{Event, Outcome};
@@ -52,6 +53,7 @@ pub struct BehaviorTrace {
     wording: Wording,
     lines: Vec<(Kind, String)>,
     active: Active,
+    beginnings: Beginnings,
     sample_every_ticks: u64,
     next_sample: u64,
     ended: Option<Outcome>,
@@ -67,6 +69,7 @@ impl BehaviorTrace {
             wording: Wording::new(program),
             lines: Vec::new(),
             active: Active::default(),
+            beginnings: Beginnings::new(program.statements.len()),
             sample_every_ticks: SAMPLE_EVERY_TICKS,
             next_sample: 0,
             ended: None,
@@ -88,16 +91,33 @@ impl BehaviorTrace {
 
     /// Adds what happened in a tick, at the vehicle's estimate of its position.
     pub fn tick(&mut self, tick: u64, position: Option<Point>, events: &[Event]) {
+        let is_end = events.iter().any(|event| matches!(event, Event::Ended(_)));
+        self.count_beginnings(tick, (!is_end).then_some(tick));
         if events.is_empty() {
             return;
         }
         self.last_event = tick;
         let said = self.said_by_others(events);
-        for (event, said) in events.iter().zip(said) {
-            if let (false, Some((verb, line))) = (said, self.wording.line(event, events, &self.active, position)) {
+        for (at, (event, said)) in events.iter().zip(said).enumerate() {
+            let said = said || matches!(event, Event::Began(statement, _) if !self.begins(*statement, tick));
+            if let (false, Some((verb, line))) = (said, self.wording.line(at, events, &self.active, position)) {
                 self.say(Kind::Event, tick, verb, &line);
             }
             self.follow(event);
+        }
+    }
+
+    /// Whether the beginning of a statement is told. That of a call is, by what it enters.
+    fn begins(&mut self, statement: u32, tick: u64) -> bool {
+        let is_call = self.wording.names.program.statements.get(statement as usize).is_some_and(|s| s.is_call);
+        is_call || self.beginnings.begin(statement, tick)
+    }
+
+    /// Adds how many beginnings were not told of what has come to rest by a tick, or of all.
+    fn count_beginnings(&mut self, tick: u64, by: Option<u64>) {
+        for (statement, count) in self.beginnings.come_to_rest(by) {
+            let line = self.wording.begun_again(statement, count, self.active.chain().len());
+            self.say(Kind::Event, tick, "begin", &line);
         }
     }
 
@@ -131,6 +151,7 @@ impl BehaviorTrace {
     /// Ends the trace: with the outcome, unless an event has told it, whether the vehicle was given back, the length of the
     /// run, and the digest of all of it.
     pub fn finish(&mut self, outcome: Outcome, release: Release, ticks: u64, digest: u64) {
+        self.count_beginnings(ticks, None);
         if self.ended != Some(outcome) {
             self.say(Kind::Event, ticks, "end", outcome.name());
             self.last_event = ticks;
@@ -151,6 +172,11 @@ impl BehaviorTrace {
     /// The event lines alone: no header, no samples, no digest.
     pub fn switches(&self) -> String {
         self.lines.iter().filter(|(kind, _)| *kind == Kind::Event).map(|(_, line)| format!("{line}\n")).collect()
+    }
+
+    /// What is active, from outside in, and the statement that is under way.
+    pub fn under_way(&self) -> Vec<String> {
+        self.active.under_way(&self.wording.names.program)
     }
 
     /// How many lines there are.

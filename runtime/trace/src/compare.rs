@@ -27,7 +27,7 @@ pub fn same_behavior(a: &str, b: &str) -> bool {
 
 /// Where the behavior of two traces first differs.
 ///
-/// Times, positions, values, samples, digests, logs, memories, and the coming and going of overlays' amendments and of
+/// Times, positions, values, samples, digests, logs, memories, the beginnings of statements, and the coming and going of overlays' amendments and of
 /// limits are no part of it. Rules are matched one to one by file: a comment above a rule moves its line and changes nothing.
 pub fn first_difference(a: &str, b: &str) -> Option<Difference> {
     let mut lefts = a.lines().filter_map(|line| Some((line, deed(line)?)));

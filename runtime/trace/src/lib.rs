@@ -3,6 +3,7 @@
 //! Everything here is a pure function of what it is given: the same run gives the same bytes on every machine.
 
 mod active;
+mod beginnings;
 mod behavior;
 mod compare;
 mod digest;

@@ -47,6 +47,8 @@ pub struct Picture {
     pub track: Vec<(Point, u16)>,
     /// The names of the behaviors.
     pub behaviors: Vec<String>,
+    /// Where the rounds of loops began, by name, such as `row 7`.
+    pub rounds: Vec<(String, Point)>,
     /// Where chemical was detected.
     pub detections: Vec<Point>,
     /// What the mission reported, by name.

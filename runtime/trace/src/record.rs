@@ -119,9 +119,10 @@ impl TickRecord {
 fn said(event: &Event) -> usize {
     match event {
         Event::Logged(text) | Event::Aborted(text) => text.len(),
-        Event::Reported(_, words) | Event::Remembered(_, words) | Event::Switched { values: words, .. } => {
-            size_of_val(words.as_slice())
-        }
+        Event::Reported(_, words)
+        | Event::Remembered(_, words)
+        | Event::Began(_, words)
+        | Event::Switched { values: words, .. } => size_of_val(words.as_slice()),
         _ => 0,
     }
 }

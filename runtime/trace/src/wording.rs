@@ -1,17 +1,20 @@
 //! What each event has to say: one line, in columns.
 
 use crate::active::Active;
+use crate::beginnings::AT_ONCE_TICKS;
 use crate::names::Names;
 use crate::words::{INDENT, cause_name, control_name, indented};
 use albacore_geometry::{Point, TangentFrame};
 use albacore_machine::{Event, Heard, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
 use albacore_program::number;
 use albacore_program::seen::one_line;
-use albacore_program::{ActivityId, Cause, Program, ReportSite, Rule, Setpoint, Shape};
+use albacore_program::{ActivityId, Cause, Program, ROUND_WORDS, ReportSite, Rule, Setpoint, Shape, Statement};
 use albacore_vehicle::TICK_S;
 
 /// The widest that the column of what happened gets by itself.
 const WHAT_WIDTH_MAX: usize = 48;
+/// ... and the widest that statements make it, beside which switches are to be read too.
+const STATEMENT_WIDTH_MAX: usize = 32;
 /// The column of positions: `at (-1094.0, -1094.0) m`.
 const WHERE_WIDTH: usize = 24;
 
@@ -28,7 +31,9 @@ impl Wording {
     /// The wording for a program, its columns as wide as its longest switch and place.
     pub fn new(program: &Program) -> Self {
         let names = Names::new(program);
-        let longest = names.switch_labels().map(|label| label.chars().count()).max().unwrap_or(0);
+        let switches = names.switch_labels().map(|label| label.chars().count());
+        let statements = program.statements.iter().filter(|statement| !statement.is_call).map(width);
+        let longest = switches.chain(statements).max().unwrap_or(0);
         // Most tables are in a strategy that is called by a mission: two levels down.
         let what_width = (longest + 2 * INDENT).min(WHAT_WIDTH_MAX);
         let place_width = program.rules.iter().map(|rule| rule.place.chars().count()).max().unwrap_or(0);
@@ -37,18 +42,21 @@ impl Wording {
 
     /// What an event has to say, and under which verb. Verbs have at most seven letters: two blanks end every column.
     ///
-    /// `all` are the events of the same tick, `active` is what was active before this one.
+    /// `all` are the events of the same tick, of which it is that `at` this place; `active` is what was active before it.
     pub fn line(
         &self,
-        event: &Event,
+        at: usize,
         all: &[Event],
         active: &Active,
         position: Option<Point>,
     ) -> Option<(&'static str, String)> {
-        let inner = active.chain().len();
+        let (event, inner) = (all.get(at)?, active.chain().len());
         Some(match event {
             Event::Control(control) => ("control", control_name(*control).to_string()),
-            Event::Entered(id) => ("enter", indented(inner, &self.names.titled(*id))),
+            Event::Entered(id) => {
+                ("enter", self.entered(*id, inner, at.checked_sub(1).and_then(|before| all.get(before))))
+            }
+            Event::Began(statement, words) => ("begin", self.begun(*statement, words, inner, position)?),
             Event::Left(id, cause) => {
                 let what = indented(active.depth(*id), &self.names.titled(*id));
                 ("leave", self.columns(&what, None, "", cause_name(*cause)))
@@ -140,6 +148,7 @@ impl Wording {
             // The others are worded in `line`. Named one by one: an event that is added has to be worded somewhere.
             Event::Control(_)
             | Event::Entered(_)
+            | Event::Began(..)
             | Event::Left(..)
             | Event::Suspended(_)
             | Event::Resumed(_)
@@ -162,6 +171,34 @@ impl Wording {
             | Event::Answered(..)
             | Event::Settled => return None,
         })
+    }
+
+    /// What is entered; by a call in a loop, which rounds that tells just before.
+    fn entered(&self, id: ActivityId, depth: usize, before: Option<&Event>) -> String {
+        let rounds = match before {
+            Some(Event::Began(statement, words)) => self.statement(*statement, true).map(|call| call.told(words)),
+            _ => None,
+        };
+        let what = indented(depth, &self.names.titled(id));
+        self.columns(&what, None, "", &one_line(&rounds.unwrap_or_default()))
+    }
+
+    /// A statement that begins. That of a call is told by what it enters.
+    fn begun(&self, statement: u32, words: &[f64], depth: usize, position: Option<Point>) -> Option<String> {
+        let statement = self.statement(statement, false)?;
+        let what = indented(depth, &one_line(&statement.told(words)));
+        Some(self.columns(&what, Some(position), &statement.place, ""))
+    }
+
+    fn statement(&self, at: u32, is_call: bool) -> Option<&Statement> {
+        self.names.program.statements.get(at as usize).filter(|statement| statement.is_call == is_call)
+    }
+
+    /// A statement that has begun again and again, so often without a line of its own.
+    pub fn begun_again(&self, statement: u32, count: u64, depth: usize) -> String {
+        let Some(statement) = self.statement(statement, false) else { return String::new() };
+        let what = indented(depth, &one_line(&statement.told(&[])));
+        format!("{what}  {count} more, less than {:.0} s apart", AT_ONCE_TICKS as f64 * TICK_S)
     }
 
     /// What goes on, and after what of the same table, if that was left in this tick.
@@ -231,4 +268,10 @@ impl Wording {
     fn value(&self, shape: &Shape, words: &[f64]) -> String {
         one_line(&number::value_with(&self.names.program.texts, shape, words))
     }
+}
+
+/// The column that a statement takes where its loops have no more rounds than most have.
+fn width(statement: &Statement) -> usize {
+    let told = statement.told(&vec![99.0; statement.loops.len() * ROUND_WORDS]);
+    told.chars().count().min(STATEMENT_WIDTH_MAX)
 }

@@ -1,6 +1,6 @@
 //! An activation: a behavior, strategy, overlay, mission or recovery that is active, with all that is inside it.
 
-use super::body::{Stop, Todo, advance, at_once};
+use super::body::{Stop, Todo, advance, at_once, beginning};
 use super::expr::{Frame, Scope, block, holds, text, value};
 use super::table::Table;
 use super::timed::{Doing, End, Setpoints, Underway};
@@ -8,7 +8,7 @@ use super::value::Value;
 use super::watch::{Rhythms, Watch};
 use super::world::World;
 use albacore_geometry::Heading;
-use albacore_lang::hir::{Activity, ActivityId, Block, Body, Decl, Hir, Kind, With};
+use albacore_lang::hir::{Action, Activity, ActivityId, Block, Body, Decl, Hir, Kind, Stmt, StmtKind, Timed, With};
 use albacore_lang::types::Type;
 use albacore_program::{Axis, Cause, TURN_RATE_MIN};
 
@@ -213,7 +213,10 @@ impl<'p> Activation<'p> {
         loop {
             match advance(w, &frame, todo) {
                 Stop::End => return Ok(true),
-                Stop::Timed(timed) => {
+                Stop::Timed(timed, span) => {
+                    if self.tells(timed, todo) {
+                        w.say(beginning(w, &frame, todo, span));
+                    }
                     let mut underway = Underway::new(w, self, timed);
                     let begun = underway.first(w, &frame, self.is_overlay);
                     todo.push(Todo::Timed(Box::new(underway)));
@@ -241,6 +244,20 @@ impl<'p> Activation<'p> {
                 Stop::Abort(why) => return Err(Aborted(text(w, Scope::of(&frame), why))),
             }
         }
+    }
+
+    /// Whether a statement is told when it begins: not beside what is active, and not what is told by another event. Of a call that is what
+    /// it enters, but for the rounds.
+    fn tells(&self, timed: &Timed, todo: &[Todo<'_>]) -> bool {
+        let is_round = todo.iter().any(|around| matches!(around, Todo::Again(..) | Todo::Rounds(..)));
+        let is_told = match timed.action {
+            Action::Ask(..) | Action::Override(_) => false,
+            Action::Call(..) => is_round,
+            Action::Guide(..) | Action::Keep(..) | Action::Watch => true,
+        };
+        let does_one_thing = self.activity.kind == Kind::Behavior
+            && matches!(&self.activity.body, Body::Sequence(block) if times(block) < 2);
+        is_told && !self.is_overlay && !does_one_thing
     }
 
     fn end_statement(&mut self, w: &mut World<'p>, mut underway: Underway<'p>, end: &End) {
@@ -425,5 +442,22 @@ pub fn inner_cause(cause: Cause) -> Cause {
 pub fn recovery(hir: &Hir, mission: ActivityId) -> Activity {
     let activity = &hir.activities[mission];
     let block = activity.mission.as_ref().and_then(|m| m.recovery.as_ref()).map(|(_, block)| block.clone());
-    Activity { body: Body::Sequence(block.unwrap_or_default()), ..Activity::empty("recovery", activity.span) }
+    // It is a part of its mission, and no behavior whose name tells what it does.
+    let body = Body::Sequence(block.unwrap_or_default());
+    Activity { kind: Kind::Mission, body, ..Activity::empty("recovery", activity.span) }
+}
+
+/// How many times something in a block can begin that takes time: more than once in a loop.
+fn times(block: &Block) -> usize {
+    let of = |stmt: &Stmt| {
+        let inside: usize = stmt.blocks().into_iter().map(times).sum();
+        match stmt.kind {
+            StmtKind::Timed(_) => 1 + inside,
+            StmtKind::While { .. } | StmtKind::Loop(_) => 2 * inside,
+            StmtKind::ForRange { .. } | StmtKind::ForList { .. } => 2 * inside,
+            StmtKind::ForEdges { .. } | StmtKind::ForRows { .. } => 2 * inside,
+            _ => inside,
+        }
+    };
+    block.stmts.iter().map(of).sum()
 }

@@ -6,24 +6,36 @@ use super::value::Value;
 use super::world::World;
 use albacore_geometry::Rows;
 use albacore_lang::hir::{Block, Expr, Stmt, StmtKind, TextPart, Timed, With};
+use albacore_lang::source::Span;
 
 /// What a body has still to do, the next last.
 pub enum Todo<'p> {
     Stmts(&'p [Stmt]),
-    /// A `while` or `loop` once more.
-    Again(&'p Stmt),
+    /// A `while` or `loop` once more, after so many rounds.
+    Again(&'p Stmt, u64),
     /// The rounds of a `for` that are left, the next last: rule 16, a copy made at its start.
-    Rounds(usize, Vec<Value>, &'p Block),
+    Rounds(Walk<'p>, Vec<Value>),
     /// The end of a `with`.
     EndWith,
     /// A statement that takes time, under way.
     Timed(Box<Underway<'p>>),
 }
 
+/// A `for` under way.
+#[derive(Clone, Copy)]
+pub struct Walk<'p> {
+    var: usize,
+    body: &'p Block,
+    /// All its rounds.
+    of: usize,
+    /// It counts through a range.
+    counts: bool,
+}
+
 /// Where a body stops for its activation to do something.
 pub enum Stop<'p> {
     End,
-    Timed(&'p Timed),
+    Timed(&'p Timed, Span),
     Underway(Box<Underway<'p>>),
     With(&'p [With], &'p Block),
     EndWith,
@@ -40,18 +52,22 @@ pub fn at_once(w: &mut World<'_>, frame: &Frame<'_>, block: &Block) {
 /// Goes on to the next stop.
 pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>>) -> Stop<'b> {
     while let Some(next) = todo.pop() {
+        let mut behind = 0;
         let stmt = match next {
             Todo::Stmts([]) => continue,
             Todo::Stmts([stmt, rest @ ..]) => {
                 todo.push(Todo::Stmts(rest));
                 stmt
             }
-            Todo::Again(stmt) => stmt,
-            Todo::Rounds(var, mut left, body) => {
+            Todo::Again(stmt, rounds) => {
+                behind = rounds;
+                stmt
+            }
+            Todo::Rounds(walk, mut left) => {
                 if let Some(round) = left.pop() {
-                    frame.set(var, round);
-                    todo.push(Todo::Rounds(var, left, body));
-                    todo.push(Todo::Stmts(&body.stmts));
+                    frame.set(walk.var, round);
+                    todo.push(Todo::Rounds(walk, left));
+                    todo.push(Todo::Stmts(&walk.body.stmts));
                 }
                 continue;
             }
@@ -76,28 +92,46 @@ pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>
                     if let (Some(var), Value::Maybe(Some(value))) = (bind, found) {
                         frame.set(*var, *value);
                     }
-                    todo.push(Todo::Again(stmt));
+                    todo.push(Todo::Again(stmt, behind + 1));
                     todo.push(Todo::Stmts(&body.stmts));
                 }
             }
             StmtKind::Loop(body) => {
-                todo.push(Todo::Again(stmt));
+                todo.push(Todo::Again(stmt, behind + 1));
                 todo.push(Todo::Stmts(&body.stmts));
             }
             StmtKind::With(items, body) => return Stop::With(items, body),
-            StmtKind::Timed(timed) => return Stop::Timed(timed),
+            StmtKind::Timed(timed) => return Stop::Timed(timed, stmt.span),
             StmtKind::Finish(result) => return Stop::Finish(result.as_ref()),
             StmtKind::Abort(why) => return Stop::Abort(why),
             _ => match rounds(w, s, stmt) {
                 Some((var, mut rounds, body)) => {
                     rounds.reverse();
-                    todo.push(Todo::Rounds(var, rounds, body));
+                    let counts = matches!(stmt.kind, StmtKind::ForRange { .. });
+                    todo.push(Todo::Rounds(Walk { var, body, of: rounds.len(), counts }, rounds));
                 }
                 None => perform(w, s, stmt),
             },
         }
     }
     Stop::End
+}
+
+/// What is said of a statement that begins: where it stands, and of each loop around it the round, of how many, and the number that
+/// it counts; of what has still to be done those loops are a part.
+pub fn beginning(w: &World<'_>, frame: &Frame<'_>, todo: &[Todo<'_>], span: Span) -> String {
+    let mut said = format!("begin {}", w.sources.place(span));
+    for around in todo {
+        match around {
+            Todo::Again(_, rounds) => said += &format!(" {rounds} of 0 at 0"),
+            Todo::Rounds(walk, left) => {
+                let at = if walk.counts { frame.get(walk.var).number() } else { 0.0 };
+                said += &format!(" {} of {} at {at}", walk.of - left.len(), walk.of);
+            }
+            _ => {}
+        }
+    }
+    said
 }
 
 /// What a `for` walks.

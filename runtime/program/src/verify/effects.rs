@@ -47,6 +47,7 @@ impl Ranges<'_> {
             | Op::End
             | Op::Finish
             | Op::Abort { .. }
+            | Op::Tell { .. }
             | Op::Report { .. }
             | Op::Log { .. }
             | Op::Changed { .. } => {}

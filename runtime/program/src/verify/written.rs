@@ -44,6 +44,7 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         | Op::End
         | Op::Finish
         | Op::Abort { .. }
+        | Op::Tell { .. }
         | Op::Report { .. }
         | Op::Log { .. }
         | Op::Changed { .. } => [None, None],

@@ -92,6 +92,8 @@ impl Task {
     fn print_events(&mut self, tick: u64, say: &mut dyn FnMut(&str)) {
         let own = self.machine.program().mission.activity;
         let is_line = self.left.is_some();
+        // Who has written a statement knows that it begins.
+        let is_single = matches!(&self.machine.program().statements[..], [only] if only.loops.is_empty());
         let events: Vec<Event> = self
             .machine
             .events()
@@ -99,6 +101,7 @@ impl Task {
             .filter(|event| match event {
                 Event::Entered(id) | Event::Left(id, _) => !(is_line && *id == own),
                 Event::Ended(Outcome::Completed) => !is_line,
+                Event::Began(..) => !(is_line && is_single),
                 _ => true,
             })
             .cloned()

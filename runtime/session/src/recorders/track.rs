@@ -1,8 +1,9 @@
-//! The way that a run took, and where it detected chemical: what its picture shows.
+//! The way that a run took, where the rounds of its loops began, and where it detected chemical: what its picture shows.
 
 use super::Recorder;
 use crate::plan::Plan;
 use albacore_geometry::Point;
+use albacore_machine::Event;
 use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Measurement, measurements};
@@ -26,6 +27,8 @@ pub(crate) struct Track {
     pub points: Vec<(Point, u16)>,
     /// The names of the behaviors.
     pub behaviors: Vec<String>,
+    /// Where the rounds of loops began that walk something, such as `row 7`.
+    pub rounds: Vec<(String, Point)>,
     /// Where something was detected.
     pub detections: Vec<Point>,
 }
@@ -46,6 +49,7 @@ impl Track {
             has_plume: plan.scenario.has_plume(),
             points: Vec::new(),
             behaviors: Vec::new(),
+            rounds: Vec::new(),
             detections: Vec::new(),
         }
     }
@@ -54,6 +58,20 @@ impl Track {
     fn shown(&self, active: &[ActivityId]) -> Option<ActivityId> {
         let in_table = active.iter().rev().find(|id| self.in_tables.contains(id));
         in_table.or(active.get(1)).or(active.first()).copied()
+    }
+
+    /// Where the rounds of a survey begin. What a behavior of a table calls is too small to be told on a chart.
+    fn mark(&mut self, record: &TickRecord, at: Point) {
+        for event in &record.events {
+            let Event::Began(statement, words) = event else { continue };
+            let Some(statement) = self.program.statements.get(*statement as usize) else { continue };
+            let inside = 1 + usize::from(statement.is_call);
+            let outside = record.active.len().saturating_sub(inside);
+            let is_small = record.active.iter().take(outside).any(|id| self.in_tables.contains(id));
+            let round = statement.walked(words).filter(|_| !is_small);
+            let is_new = |round: &String| self.rounds.last().is_none_or(|(last, _)| last != round);
+            self.rounds.extend(round.filter(is_new).map(|round| (round, at)));
+        }
     }
 
     fn index_of(&mut self, behavior: ActivityId) -> u16 {
@@ -82,6 +100,7 @@ impl Recorder for Track {
             let index = self.index_of(behavior);
             self.points.push((at, index));
         }
+        self.mark(record, at);
         let mut samples = record.snapshot.samples.iter();
         let detected = samples.any(|s| Some(s.measurement as usize) == self.chemical && s.reading[0] >= DETECTION);
         if detected && (record.truth.is_none() || self.has_plume) {

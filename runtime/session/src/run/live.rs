@@ -44,8 +44,8 @@ pub struct LiveOptions<'a> {
 pub enum LiveUpdate<'a> {
     /// Of the vehicle, or its link.
     Notice(&'a str),
-    /// Where the run is: its tick, and the names of the active activities from outside in.
-    Progress(u64, &'a [&'a str]),
+    /// Where the run is: its tick, the active activities from outside in, and the statement that is under way.
+    Progress(u64, &'a [String]),
     /// The journal is given up.
     JournalFailed(io::Error),
     /// Now and then: there is nothing new.
@@ -177,10 +177,7 @@ fn fold(
                     report(LiveUpdate::Notice(&notice));
                 }
                 if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
-                    let activities = &memory.results.plan.program.activities;
-                    let names: Vec<&str> =
-                        record.active.iter().map(|id| activities[*id as usize].name.as_str()).collect();
-                    report(LiveUpdate::Progress(record.tick, &names));
+                    report(LiveUpdate::Progress(record.tick, &memory.trace.lines().under_way()));
                 }
             }
             Err(RecvTimeoutError::Timeout) => report(LiveUpdate::Nothing),

@@ -19,6 +19,9 @@ const REPORTS_MAX: usize = 2_000;
 /// At most so many of them are named: more could not be read.
 const LABELS_MAX: usize = 60;
 
+/// At most so many beginnings of rounds are marked, evenly spaced in the order they are given.
+const ROUNDS_MAX: usize = 40;
+
 /// The colour of the plume.
 pub const PLUME: &str = "#b08d2f";
 /// The colour of detections.
@@ -27,6 +30,8 @@ pub const DETECTION: &str = "#333";
 const NO_GO: &str = "#b3001b";
 /// The colour of true sources.
 const SOURCE: &str = "#7a0019";
+/// The colour of the beginnings of rounds.
+const ROUND: &str = "#555";
 /// The radius of the ring round a true source, in pixels.
 const RING: f64 = 10.0;
 
@@ -197,10 +202,13 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
         named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
     };
     let (sources, reports) = (places(&picture.sources), reports(picture, frame));
+    let rounds = places(&picture.rounds);
+    let rounds: Vec<_> = chosen(rounds.len(), ROUNDS_MAX).map(|i| &rounds[i]).collect();
     let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));
     taken.extend(reports.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
+    taken.extend(rounds.iter().map(|(_, at)| (*at, 4.0)));
     let mut around = outline(&picture.area, frame);
     around.extend(around.first().copied());
     let leaks = leaks(&picture.leaks, frame);
@@ -208,6 +216,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let lines = lines.chain(leaks.iter().map(Vec::as_slice));
     let mut labels = Labels::new(lines, &taken);
 
+    rounds.iter().for_each(|(_, at)| round_mark(svg, *at));
     start.into_iter().for_each(|at| start_mark(svg, at));
     sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
     reports.iter().for_each(|(_, at)| report_mark(svg, *at));
@@ -226,6 +235,14 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
         labels.put(svg, frame, *at, name, SOURCE);
     }
     start.into_iter().for_each(|at| labels.put(svg, frame, at, "start", "#111"));
+    for (name, at) in rounds {
+        labels.put(svg, frame, *at, name, ROUND);
+    }
+}
+
+/// A small open dot.
+pub fn round_mark(svg: &mut Svg, at: (f64, f64)) {
+    svg.circle(at, 3.0, &format!("fill=\"#fff\" stroke=\"{ROUND}\" stroke-width=\"1.2\""));
 }
 
 /// A white triangle.
