@@ -88,6 +88,7 @@ impl<'t> Checker<'t> {
         }
         self.check_vehicles();
         self.check_scenarios();
+        self.payloads_are_declared();
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 self.check_item(m, item);

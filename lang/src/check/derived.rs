@@ -3,7 +3,7 @@
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{ClauseArg, ClauseUse, ExprKind, TextPart};
+use crate::hir::{ClauseArg, ClauseUse};
 use crate::syntax::tree;
 use crate::types::Type;
 use std::collections::BTreeMap;
@@ -236,11 +236,5 @@ pub(super) fn happens(clause: &ClauseUse) -> bool {
 /// The name of the thing that a clause is about, where there may be several.
 fn thing(clause: &ClauseUse) -> Option<&str> {
     let (_, ClauseArg::Value(name)) = clause.args.first().filter(|(param, _)| param == "name")? else { return None };
-    match &name.kind {
-        ExprKind::Text(parts) => match parts.as_slice() {
-            [TextPart::Literal(text)] => Some(text),
-            _ => None,
-        },
-        _ => None,
-    }
+    name.literal_text()
 }

@@ -3,11 +3,14 @@
 use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Action, Payload};
+use crate::hir::{Action, ClauseArg, Payload};
 use crate::source::Span;
 use crate::syntax::tree::{self, PayloadAction};
 use crate::types::Type;
+use std::collections::BTreeSet;
 
+/// The clause by which scenarios say how payloads answer.
+const CLAUSE: &str = "payload";
 /// What an `ask` ends with, in the library's inputs.
 const ANSWER: &str = "Answer";
 
@@ -36,6 +39,38 @@ impl Checker<'_> {
                 let help = format!("write `{}() -> Bool`; what a payload measures is an `input`", name.node);
                 self.report(Diagnostic::error(Code::TypesMismatch, result.span, message).help(help));
             }
+        }
+    }
+
+    /// What scenarios say of payloads that no script declares: a slip, where any is declared, for nothing asks them.
+    pub(super) fn payloads_are_declared(&mut self) {
+        let known = self.hir.payloads.iter().flat_map(|payload| {
+            let actions = payload.actions.iter().map(|(action, _)| format!("{}.{action}", payload.name));
+            std::iter::once(payload.name.clone()).chain(actions)
+        });
+        let known: BTreeSet<String> = known.collect();
+        if known.is_empty() {
+            return;
+        }
+        let clauses = self.hir.scenarios.iter().flat_map(|scenario| &scenario.clauses);
+        let named = clauses.filter(|clause| clause.name == CLAUSE).filter_map(|clause| clause.args.first());
+        let unknown = named.filter_map(|(_, arg)| match arg {
+            ClauseArg::Value(value) => {
+                Some((value.literal_text()?.to_string(), value.span)).filter(|(name, _)| !known.contains(name))
+            }
+            _ => None,
+        });
+        for (name, span) in unknown.collect::<BTreeSet<_>>() {
+            let finding = Diagnostic::warning(
+                Code::ScenariosUnknown,
+                span,
+                format!("no payload is declared that answers `{name}`"),
+            );
+            let help = self.suggestion(&name, known.iter().map(String::as_str));
+            self.report(match help {
+                Some(help) => finding.help(help),
+                None => finding,
+            });
         }
     }
 

@@ -154,6 +154,17 @@ pub struct Expr {
 }
 
 impl Expr {
+    /// The text that it is, if it is one without holes.
+    pub fn literal_text(&self) -> Option<&str> {
+        match &self.kind {
+            ExprKind::Text(parts) => match parts.as_slice() {
+                [TextPart::Literal(text)] => Some(text),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// The value of an optional that is known to be present; what is never absent is its own value. This is the only place
     /// that makes an [`ExprKind::Unwrap`], so that none stands over a value without a presence.
     pub fn unwrapped(self) -> Expr {
