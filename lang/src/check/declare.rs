@@ -113,7 +113,11 @@ impl<'t> Checker<'t> {
         let mut known_ends = ends::Known::new();
         self.calls_go_on(&hir, &mut known_ends);
         self.overlays_do_one_thing(&hir, &mut known_ends);
-        for activity in &hir.activities {
+        // One that is several by what it is given is looked at as it is called.
+        let of_calls = |(id, _): &(usize, &hir::Activity)| !self.is_made_of(*id);
+        let activities: Vec<&hir::Activity> =
+            hir.activities.iter().enumerate().filter(of_calls).map(|(_, a)| a).collect();
+        for activity in activities {
             if let hir::Body::Table { start, behaviors, rules } = &activity.body {
                 self.in_strategy(activity.span, |c| {
                     c.check_table(&hir, &mut known_ends, activity, (behaviors, *start, rules));
