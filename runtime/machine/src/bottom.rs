@@ -67,7 +67,7 @@ pub(crate) struct Bottom {
     below: f64,
     /// The depth that is told again and again, if it is.
     still: Option<Still>,
-    /// The water that was told since a rise was asked for, m: a depth that is told late makes of it deeper water.
+    /// The water that was told since the vehicle was told to rise, m: a depth that is told late makes of it deeper water.
     in_rise: LeastOfLate,
     /// It was told that the bottom is lost.
     lost: bool,

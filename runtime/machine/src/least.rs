@@ -10,7 +10,7 @@ const SPAN_S: f64 = 20.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LeastOfLate {
     /// The tick in which there was reason last.
-    begun: Option<u64>,
+    reason: Option<u64>,
     /// The tick in which the present span began, what was least in it, and in the one before.
     span: u64,
     now: Option<f64>,
@@ -23,7 +23,7 @@ impl LeastOfLate {
         if !self.holds(tick) {
             *self = LeastOfLate { span: tick, ..LeastOfLate::default() };
         }
-        self.begun = Some(tick);
+        self.reason = Some(tick);
     }
 
     /// Takes in a number.
@@ -39,7 +39,7 @@ impl LeastOfLate {
 
     /// Whether there was reason of late.
     pub fn holds(&self, tick: u64) -> bool {
-        self.begun.is_some_and(|begun| since(begun, tick) <= 2.0 * SPAN_S)
+        self.reason.is_some_and(|reason| since(reason, tick) <= 2.0 * SPAN_S)
     }
 
     /// The least of late; more than any number where there is no reason to go by it.

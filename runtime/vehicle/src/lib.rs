@@ -19,6 +19,11 @@ use serde::{Deserialize, Serialize};
 /// The control period: one tick, in seconds.
 pub const TICK_S: f64 = 0.1;
 
+/// How long so many ticks are, s, as near as a number can be: 41 of them are 4.1 s, where `41.0 * TICK_S` is a little more.
+pub fn seconds(ticks: u64) -> f64 {
+    ticks as f64 / (1.0 / TICK_S)
+}
+
 /// A vehicle that does not let drive who asks for so many ticks has refused, whatever it answers.
 pub const REQUEST_TICKS: u64 = 300;
 

@@ -9,7 +9,7 @@ use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{AREA_WORDS, ActivityId, Display, Shape, number};
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::{TICK_S, Truth};
+use albacore_vehicle::{Truth, seconds};
 
 /// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
 pub(crate) struct Expectations<'t> {
@@ -68,7 +68,7 @@ impl<'t> Expectations<'t> {
 
     /// The last tick that was lived, s.
     fn time_s(&self) -> f64 {
-        self.results.ticks.saturating_sub(1) as f64 * TICK_S
+        seconds(self.results.ticks.saturating_sub(1))
     }
 
     /// How long the run has lasted.
@@ -197,15 +197,25 @@ impl Recorder for Expectations<'_> {
     }
 }
 
-/// A value as it is told, one below its unit with more decimals: it may be held to some hundredths.
+/// A value as it is told, one below its unit with more decimals: it may be held to some hundredths. A time that would be told as one that it only is
+/// very near to, as 5.0 - 4.1 is to 0.9, is told with all its digits: times are held to whole tenths.
 fn told(shape: &Shape, words: &[f64]) -> String {
     match (shape, words) {
+        (Shape::Quantity(display), [x]) if display.unit == "s" && is_nearly_round(*x) => {
+            format!("{x} {}", display.unit)
+        }
         (Shape::Quantity(display), [x]) if x.abs() < display.scale && display.unit != "%" => {
             let finer = Display { decimals: display.decimals + 2, ..display.clone() };
             number::value(&Shape::Quantity(finer), words)
         }
         _ => number::value(shape, words),
     }
+}
+
+/// Whether a number is not the one of three decimals to which it is nearer than anything that is measured.
+fn is_nearly_round(x: f64) -> bool {
+    let round = (x * 1e3).round() / 1e3;
+    x != round && (x - round).abs() < 1e-9
 }
 
 /// A part of the truth, in metres, radians and metres a second.

@@ -6,7 +6,7 @@ use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
 use albacore_trace::{Ending, Release, Step, TickRecord};
-use albacore_vehicle::TICK_S;
+use albacore_vehicle::seconds;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -152,7 +152,7 @@ impl Results {
             outcome: self.outcome().map_or("running", Outcome::name),
             reason: self.reason().to_string(),
             ticks: self.ticks,
-            sim_time_s: self.ticks as f64 / (1.0 / TICK_S),
+            sim_time_s: seconds(self.ticks),
             wall_s,
             path_length_m: self.odometer.length,
             switches: self.switches,
@@ -200,7 +200,7 @@ impl Results {
         let at = site.fields.first().and_then(|(_, value)| value.shape.first_point());
         let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);
-        let t_s = tick as f64 / (1.0 / TICK_S);
+        let t_s = seconds(tick);
         self.reports.count(&site.name, Reported { t_s, place });
         if !self.reports.admits(id) {
             return;

@@ -21,6 +21,8 @@ const LABELS_MAX: usize = 60;
 
 /// At most so many beginnings of rounds are marked, evenly spaced in the order they are given.
 const ROUNDS_MAX: usize = 40;
+/// Of the beginnings of rounds of one name only one is marked in such a square, in pixels: who surveys a place again begins where he did.
+const ROUND_CELL: f64 = 40.0;
 
 /// The colour of the plume.
 pub const PLUME: &str = "#b08d2f";
@@ -184,26 +186,26 @@ fn detections(svg: &mut Svg, picture: &Picture, frame: &Frame) {
     }
 }
 
-/// Where there is a dot for a report, and its name.
-fn reports<'a>(picture: &'a Picture, frame: &Frame) -> Vec<(&'a str, (f64, f64))> {
+/// Where there is a dot for what has a name, such as a report: of one name one in each square of so many pixels, and so many at most.
+fn dots<'a>(named: &'a [(String, Point)], frame: &Frame, cell: f64, most: usize) -> Vec<(&'a str, (f64, f64))> {
     let mut cells = BTreeSet::new();
     let mut apart = Vec::new();
-    for (name, p) in picture.reports.iter().filter(|(_, p)| is_place(*p)) {
+    for (name, p) in named.iter().filter(|(_, p)| is_place(*p)) {
         let (x, y) = frame.place(*p);
-        if cells.insert((name, (x / REPORT_CELL) as i64, (y / REPORT_CELL) as i64)) {
+        if cells.insert((name, (x / cell) as i64, (y / cell) as i64)) {
             apart.push((name.as_str(), (x, y)));
         }
     }
-    chosen(apart.len(), REPORTS_MAX).map(|i| apart[i]).collect()
+    chosen(apart.len(), most).map(|i| apart[i]).collect()
 }
 
 fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let places = |named: &'_ [(String, Point)]| -> Vec<(String, (f64, f64))> {
         named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
     };
-    let (sources, reports) = (places(&picture.sources), reports(picture, frame));
-    let rounds = places(&picture.rounds);
-    let rounds: Vec<_> = chosen(rounds.len(), ROUNDS_MAX).map(|i| &rounds[i]).collect();
+    let sources = places(&picture.sources);
+    let reports = dots(&picture.reports, frame, REPORT_CELL, REPORTS_MAX);
+    let rounds = dots(&picture.rounds, frame, ROUND_CELL, ROUNDS_MAX);
     let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));
@@ -236,7 +238,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     }
     start.into_iter().for_each(|at| labels.put(svg, frame, at, "start", "#111"));
     for (name, at) in rounds {
-        labels.put(svg, frame, *at, name, ROUND);
+        labels.put(svg, frame, at, name, ROUND);
     }
 }
 
