@@ -199,10 +199,17 @@ impl<'t> Checker<'t> {
                     _ => {
                         let message = format!("this is {}, no condition", article(&name));
                         let is_time = matches!(other, Type::Quantity(dimension) if *dimension == Dimension::TIME);
-                        Diagnostic::error(Code::TypesCondition, span, message).help(match is_time {
-                            _ if *other == Type::Date => "compare it with the vehicle's clock: `utc >= DATE`",
-                            true => "how long something lasts is written with `for` or `within`: `wait for 10 s`",
-                            false => "compare it with something, such as `x > 0 m`",
+                        let truth = match other {
+                            Type::Record(id) => self.types.records[*id].fields.iter().find(|(_, ty)| *ty == Type::Bool),
+                            _ => None,
+                        };
+                        Diagnostic::error(Code::TypesCondition, span, message).help(match truth {
+                            Some((field, _)) => format!("ask for its field that is one: `x.{field}`"),
+                            None if *other == Type::Date => "compare it with the vehicle's clock: `utc >= DATE`".into(),
+                            None if is_time => {
+                                "how long something lasts is written with `for` or `within`: `wait for 10 s`".into()
+                            }
+                            None => "compare it with something, such as `x > 0 m`".to_string(),
                         })
                     }
                 };

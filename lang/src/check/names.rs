@@ -195,6 +195,7 @@ impl<'t> Checker<'t> {
                 let finding = match other {
                     Def::Fn(_) | Def::Record(_) => finding.help(format!("write `{name}(…)`")),
                     Def::Activity(_) => finding.help(format!("call it as a statement: `{name}(…)`")),
+                    Def::Payload(_) => finding.help(format!("ask it: `ask {name}.ACTION() within 10 s`")),
                     Def::Enum(id) => {
                         let variants: Vec<&str> = self.types.enums[*id].variants.iter().map(String::as_str).collect();
                         finding.help(format!("its variants are written alone: {}", listed(&variants)))

@@ -2,14 +2,14 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test whose scripts cannot be read has failed")]
 
+use crate::sink::Sink;
 use albacore_machine::{Machine, Outcome};
 use albacore_session::{Faults, PICTURE, PastRun, Plan, Run, Running, load, load_faults};
 use albacore_trace::TickRecord;
 use albacore_trace::journal::{Ending, Journal};
 use albacore_vehicle::Sample;
-use std::io;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// Bytes a tick, so that a day at ten ticks a second stays below 500 MB.
 const BYTES_A_TICK: usize = 578;
@@ -20,36 +20,8 @@ fn plan(mission: &str) -> Plan {
     Plan::new(&script, &path.display().to_string(), None, None).unwrap()
 }
 
-/// A sink whose bytes can be looked at, and which fails from one of its writes on.
-#[derive(Clone, Default)]
-struct Sink {
-    bytes: Arc<Mutex<Vec<u8>>>,
-    writes_left: Option<usize>,
-}
-
-impl io::Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let mut taken = self.bytes.lock().unwrap();
-        let fits = match &mut self.writes_left {
-            Some(0) => return Err(io::ErrorKind::StorageFull.into()),
-            // A disk that gets full takes a part of the last write, and then nothing.
-            Some(left) => {
-                *left -= 1;
-                if *left == 0 { bytes.len() / 2 } else { bytes.len() }
-            }
-            None => bytes.len(),
-        };
-        taken.extend(&bytes[..fits]);
-        Ok(fits)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 fn read(sink: &Sink) -> Journal {
-    Journal::read(&sink.bytes.lock().unwrap()).unwrap()
+    Journal::read(&sink.bytes()).unwrap()
 }
 
 #[track_caller]
@@ -83,7 +55,7 @@ fn a_machine_fed_with_the_journal_does_the_same_again() {
     }
     assert_eq!(machine.outcome(), Some(Outcome::Completed));
 
-    let per_tick = sink.bytes.lock().unwrap().len() / journal.ticks.len();
+    let per_tick = sink.bytes().len() / journal.ticks.len();
     println!("{per_tick} bytes a tick");
     assert!(per_tick < BYTES_A_TICK, "{per_tick} bytes a tick");
 }
@@ -149,7 +121,7 @@ fn a_journal_that_is_read_back_feeds_the_same_recorders() {
             None => _ = run.to_end(),
         }
         run.interrupt();
-        let bytes = sink.bytes.lock().unwrap();
+        let bytes = sink.bytes();
         let past = PastRun::read(&plan, &bytes).unwrap();
         assert!(matches!(past.ending(), Ending::Complete(_)), "{mission}: {:?}", past.ending());
         assert_eq!(past.summary(), run.summary(0.0), "{mission}");
@@ -176,7 +148,7 @@ fn a_journal_of_another_script_can_be_read() {
         run.with_journal(Box::new(sink.clone()), &[]);
         (0..6000).for_each(|_| _ = run.step());
         run.interrupt();
-        sink.bytes.lock().unwrap().clone()
+        sink.bytes()
     });
     for mission in missions {
         let plan = plan(mission);
@@ -212,7 +184,7 @@ fn the_same_run_leaves_the_same_journal() {
         let mut run = Run::new(&plan, 3).unwrap();
         run.with_journal(Box::new(sink.clone()), &[]);
         run.to_end();
-        sink.bytes.lock().unwrap().clone()
+        sink.bytes()
     };
     assert_eq!(bytes(), bytes());
 }
@@ -222,7 +194,7 @@ fn a_disk_that_fills_at_any_write_leaves_the_run_alone() {
     const TICKS: u64 = 205;
     let plan = plan("box");
     let digest = |writes_left: Option<usize>| {
-        let sink = Sink { writes_left, ..Sink::default() };
+        let sink = Sink::with_writes(writes_left);
         let mut run = Run::new(&plan, 1).unwrap();
         run.with_journal(Box::new(sink.clone()), &[]);
         let mut failures = usize::from(run.journal_failure().is_some());
@@ -237,7 +209,7 @@ fn a_disk_that_fills_at_any_write_leaves_the_run_alone() {
     for k in 1..=200 {
         let (digest, failures, sink) = digest(Some(k));
         assert_eq!((digest, failures), (good.clone(), 1), "disk full at write {k}");
-        match Journal::read(&sink.bytes.lock().unwrap()) {
+        match Journal::read(&sink.bytes()) {
             Err(_) => assert_eq!(k, 1),
             Ok(journal) => {
                 assert_eq!(journal.ticks.len(), k - 2, "disk full at write {k}");

@@ -14,6 +14,7 @@ mod payload;
 mod profiler;
 mod recorded;
 mod recording;
+mod sink;
 mod sounding;
 mod station;
 mod watch;

@@ -2,11 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
+use crate::sink::Sink;
 use albacore_machine::{Event, Heard, Machine};
 use albacore_session::{Outcome, Plan, PlanError, Run, Script, Source, load_text};
 use albacore_trace::journal::Journal;
-use std::io;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// A minute northward, beside which a camera is asked once a second, and answers as it likes.
 const ASKS: &str = "
@@ -28,20 +28,6 @@ mission asks in moody within 10 min {
 scenario moody = calm with { payload(\"camera\", after: 200 ms, refuses: 30 %, silent: 30 %) }
 ";
 
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl io::Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().extend(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 fn script(text: &str) -> Script {
     let script = load_text(Source { name: "asks.alb".into(), text: text.into() });
     assert!(script.is_sound(), "{:?}", script.findings);
@@ -54,7 +40,7 @@ fn journal(seed: u64) -> (Plan, Journal) {
     let mut run = Run::new(&plan, seed).unwrap();
     run.with_journal(Box::new(sink.clone()), &[]);
     assert_eq!(run.to_end(), Outcome::Completed);
-    let journal = Journal::read(&sink.0.lock().unwrap()).unwrap();
+    let journal = Journal::read(&sink.bytes()).unwrap();
     (plan, journal)
 }
 

@@ -2,10 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
+use crate::sink::Sink;
 use albacore_session::{PastRun, Plan, RECORDED, Run, Source, load_text};
-use std::io;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
 const GALLERY: &str = "../../missions/gallery/lawn_mower_and_record.alb";
 
@@ -19,20 +18,6 @@ fn plan(text: &str) -> Plan {
     Plan::new(&script, "recording.alb", None, None).unwrap()
 }
 
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl io::Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().extend(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// A run of a text to its end, with its journal.
 fn run(text: &str) -> (Run, Plan, Vec<u8>) {
     let plan = plan(text);
@@ -40,7 +25,7 @@ fn run(text: &str) -> (Run, Plan, Vec<u8>) {
     let mut run = Run::new(&plan, 1).unwrap();
     run.with_journal(Box::new(sink.clone()), &[]);
     run.to_end();
-    let bytes = sink.0.lock().unwrap().clone();
+    let bytes = sink.bytes();
     (run, plan, bytes)
 }
 
