@@ -35,7 +35,7 @@ impl GivenBehavior {
 
 /// A behavior or a strategy of which there are several by what it is given.
 #[derive(Clone)]
-struct Tour<'t> {
+struct ActivityTemplate<'t> {
     module: usize,
     activity: &'t tree::Activity,
     /// What it calls the capacities of lists.
@@ -55,8 +55,8 @@ struct Made {
 
 /// Behaviors of which there are several, and what is made of them.
 #[derive(Default)]
-pub(super) struct Tours<'t> {
-    of: BTreeMap<ActivityId, Tour<'t>>,
+pub(super) struct ActivityTemplates<'t> {
+    of: BTreeMap<ActivityId, ActivityTemplate<'t>>,
     made: BTreeMap<(ActivityId, Vec<ActivityId>, Vec<u32>), ActivityId>,
     /// Of what was made and of what stands in for what is given: it has no declaration of its own.
     signatures: BTreeMap<ActivityId, Signature>,
@@ -71,7 +71,7 @@ pub(super) fn is_behavior(param: &tree::Param) -> bool {
 
 impl<'t> Checker<'t> {
     pub(super) fn activity_signature(&self, id: ActivityId) -> &Signature {
-        self.tours.signatures.get(&id).unwrap_or_else(|| &self.activity_signatures[id])
+        self.activity_templates.signatures.get(&id).unwrap_or_else(|| &self.activity_signatures[id])
     }
 
     /// The parameters of an activity, and of which there are several by them.
@@ -86,7 +86,7 @@ impl<'t> Checker<'t> {
         let capacities = if is_one { self.capacity_names(m, &a.params) } else { Vec::new() };
         if is_one && (first.is_some() || !capacities.is_empty()) {
             let capacities = capacities.clone();
-            self.tours.of.insert(id, Tour { module: m, activity: a, capacities });
+            self.activity_templates.of.insert(id, ActivityTemplate { module: m, activity: a, capacities });
         }
         self.params_for(m, a, nominal(&capacities))
     }
@@ -137,7 +137,7 @@ impl<'t> Checker<'t> {
     fn made_activity(&mut self, signature: Signature) -> ActivityId {
         let id = self.hir.activities.len();
         self.hir.activities.push(hir::Activity::empty(&signature.name, signature.span));
-        self.tours.signatures.insert(id, signature);
+        self.activity_templates.signatures.insert(id, signature);
         id
     }
 
@@ -173,15 +173,16 @@ impl<'t> Checker<'t> {
     ) -> Option<(Action, Option<Type>)> {
         let signature = self.activity_signature(id).clone();
         let places = (span, Some(signature.span));
-        let Some(tour) = self.tours.of.get(&id).cloned() else {
+        let Some(template) = self.activity_templates.of.get(&id).cloned() else {
             let values = self.arguments(&signature.name, &signature.params, args, span, places.1)?;
             return Some((Action::Call(id, values), signature.result));
         };
         let (written, mut failed) = self.by_parameter(&signature.name, &signature.params, args, true);
         let (mut behaviors, mut given) = (Vec::new(), Vec::new());
-        let mut capacities: Vec<u32> = tour.capacities.iter().map(|_| 1).collect();
-        for ((param, declared), written) in signature.params.iter().zip(&tour.activity.params).zip(written) {
-            let place = capacity(&declared.ty).and_then(|name| tour.capacities.iter().position(|known| known == name));
+        let mut capacities: Vec<u32> = template.capacities.iter().map(|_| 1).collect();
+        for ((param, declared), written) in signature.params.iter().zip(&template.activity.params).zip(written) {
+            let place =
+                capacity(&declared.ty).and_then(|name| template.capacities.iter().position(|known| known == name));
             match (&param.behavior, &param.ty, place, written) {
                 (Some(takes), _, _, Some(written)) => {
                     let found = self.behavior_given(&signature.name, param, takes, written);
@@ -200,9 +201,9 @@ impl<'t> Checker<'t> {
                 (None, .., written) => given.push(written.map(Given::Written)),
             }
         }
-        let params = match tour.capacities.is_empty() {
+        let params = match template.capacities.is_empty() {
             true => signature.params.clone(),
-            false => self.params_for(tour.module, tour.activity, named(&tour.capacities, &capacities)),
+            false => self.params_for(template.module, template.activity, named(&template.capacities, &capacities)),
         };
         let values_of: Vec<ParamInfo> = params.iter().filter(|param| param.behavior.is_none()).cloned().collect();
         let values = self.values(&signature.name, &values_of, given, failed, places)?;
@@ -300,10 +301,10 @@ impl<'t> Checker<'t> {
     /// The behavior that is made of another with what it is given.
     fn made_with(&mut self, made: Made, signature: Signature) -> Option<ActivityId> {
         let key = (made.of, made.behaviors.clone(), made.capacities.clone());
-        if let Some(made) = self.tours.made.get(&key) {
+        if let Some(made) = self.activity_templates.made.get(&key) {
             return Some(*made);
         }
-        if self.tours.made.len() >= INSTANCES_MAX {
+        if self.activity_templates.made.len() >= INSTANCES_MAX {
             let message =
                 format!("behaviors are called with more than {INSTANCES_MAX} behaviors and capacities of lists");
             let finding = Diagnostic::error(Code::LimitsCapacities, made.called, message);
@@ -311,20 +312,24 @@ impl<'t> Checker<'t> {
             return None;
         }
         let id = self.made_activity(signature);
-        self.tours.made.insert(key, id);
-        self.tours.ahead.push(Made { id, ..made });
+        self.activity_templates.made.insert(key, id);
+        self.activity_templates.ahead.push(Made { id, ..made });
         Some(id)
     }
 
     /// Whether anything is made of it.
     pub(super) fn is_made_of(&self, id: ActivityId) -> bool {
-        self.tours.made.keys().any(|(of, ..)| *of == id)
+        self.activity_templates.made.keys().any(|(of, ..)| *of == id)
     }
 
     /// The bodies of what calls have made. What is wrong with one only with what it is given is told where that is.
     pub(super) fn check_made_activities(&mut self) {
-        while let Some(made) = self.tours.ahead.pop() {
-            let Some(Tour { module, activity: a, capacities }) = self.tours.of.get(&made.of).cloned() else { continue };
+        while let Some(made) = self.activity_templates.ahead.pop() {
+            let Some(ActivityTemplate { module, activity: a, capacities }) =
+                self.activity_templates.of.get(&made.of).cloned()
+            else {
+                continue;
+            };
             let before = self.findings.len();
             let capacities = named(&capacities, &made.capacities);
             self.activity_with(module, made.id, a, (made.params, &made.behaviors, capacities));
@@ -338,8 +343,9 @@ impl<'t> Checker<'t> {
     pub(super) fn declared_activity(&mut self, m: usize, id: ActivityId, a: &'t tree::Activity) {
         let params = self.activity_signatures[id].params.clone();
         let stand_ins = self.stand_ins(&params);
-        let capacities = self.tours.of.get(&id).map(|tour| nominal(&tour.capacities)).unwrap_or_default();
-        let is_several = self.tours.of.contains_key(&id);
+        let capacities =
+            self.activity_templates.of.get(&id).map(|template| nominal(&template.capacities)).unwrap_or_default();
+        let is_several = self.activity_templates.of.contains_key(&id);
         self.as_declared(Declared::Activity(id), is_several, |c| {
             c.activity_with(m, id, a, (params, &stand_ins, capacities));
         });
@@ -354,7 +360,7 @@ impl<'t> Checker<'t> {
         (infos, behaviors, capacities): (Vec<ParamInfo>, &[ActivityId], Capacities),
     ) {
         let Signature { name, span, .. } = self.activity_signature(id).clone();
-        let is_nominal = self.tours.of.contains_key(&id);
+        let is_nominal = self.activity_templates.of.contains_key(&id);
         let scope = Scope { derived: self.derived(a), capacities, is_nominal, ..Scope::new(m, Setting::Body) };
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &infos);

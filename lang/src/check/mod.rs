@@ -313,7 +313,7 @@ pub struct Checker<'t> {
     templates: capacities::Templates<'t>,
     /// What is wrong with such ones as they are declared, with what stands in for what they are given: of a function or of an activity.
     nominal_findings: Vec<(capacities::Declared, Diagnostic)>,
-    tours: given_behaviors::Tours<'t>,
+    activity_templates: given_behaviors::ActivityTemplates<'t>,
     /// Units whose turn comes yet.
     units_ahead: UnitsAhead<'t>,
     /// The functions whose signatures are not read yet.
@@ -386,7 +386,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         fitted: Vec::new(),
         fn_signatures: Vec::new(),
         templates: capacities::Templates::default(),
-        tours: given_behaviors::Tours::default(),
+        activity_templates: given_behaviors::ActivityTemplates::default(),
         nominal_findings: Vec::new(),
         units_ahead: UnitsAhead::default(),
         fns_ahead: BTreeMap::new(),
