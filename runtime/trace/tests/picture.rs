@@ -180,3 +180,18 @@ fn water_that_is_to_be_seen_is_on_the_chart() {
     check(&svg);
     assert!(svg.contains(">-400</text>") && svg.contains(">400</text>"));
 }
+
+#[test]
+fn rounds_of_a_survey_are_named_once_at_a_place_and_turns_of_a_maneuver_are_not() {
+    let marked = |rounds: &[(&str, f64, f64)]| {
+        let rounds = rounds.iter().map(|(name, north, east)| (name.to_string(), Point::new(*north, *east))).collect();
+        let svg = Picture { rounds, ..full() }.svg();
+        let names = [">row 1<", ">row 2<", ">round of a loop begins<"];
+        names.map(|name| svg.matches(name).count())
+    };
+    // The same survey twice, from end to end of the area.
+    let survey = [("row 1", -150.0, -150.0), ("row 2", 150.0, 150.0)];
+    assert_eq!(marked(&[survey, survey].concat()), [1, 1, 1]);
+    assert_eq!(marked(&[("row 1", 0.0, 0.0), ("row 2", 1.0, 0.0), ("row 1", 0.0, 0.0)]), [0, 0, 0]);
+    assert_eq!(marked(&[]), [0, 0, 0]);
+}

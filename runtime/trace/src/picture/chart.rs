@@ -23,6 +23,8 @@ const LABELS_MAX: usize = 60;
 const ROUNDS_MAX: usize = 40;
 /// Of the beginnings of rounds of one name only one is marked in such a square, in pixels: who surveys a place again begins where he did.
 const ROUND_CELL: f64 = 40.0;
+/// A round that begins nearer than this, in pixels, to the one before or after it is a turn of a maneuver, and no leg of a survey.
+const LEG_MIN: f64 = 80.0;
 
 /// The colour of the plume.
 pub const PLUME: &str = "#b08d2f";
@@ -199,13 +201,29 @@ fn dots<'a>(named: &'a [(String, Point)], frame: &Frame, cell: f64, most: usize)
     chosen(apart.len(), most).map(|i| apart[i]).collect()
 }
 
+/// The beginnings of rounds that are legs on this chart.
+pub fn legs(rounds: &[(String, Point)], frame: &Frame) -> Vec<(String, Point)> {
+    let is_far = |a: &(String, Point), b: &(String, Point)| {
+        let (a, b) = (frame.place(a.1), frame.place(b.1));
+        let (right, down) = (a.0 - b.0, a.1 - b.1);
+        right * right + down * down >= LEG_MIN * LEG_MIN
+    };
+    let is_leg = |i: &usize| {
+        let before = i.checked_sub(1).and_then(|before| rounds.get(before));
+        let beside = before.into_iter().chain(rounds.get(i + 1));
+        rounds.get(*i).is_some_and(|round| beside.into_iter().all(|other| is_far(round, other)))
+    };
+    (0..rounds.len()).filter(is_leg).map(|i| rounds[i].clone()).collect()
+}
+
 fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let places = |named: &'_ [(String, Point)]| -> Vec<(String, (f64, f64))> {
         named.iter().filter(|(_, p)| is_place(*p)).map(|(name, p)| (name.clone(), frame.place(*p))).collect()
     };
     let sources = places(&picture.sources);
     let reports = dots(&picture.reports, frame, REPORT_CELL, REPORTS_MAX);
-    let rounds = dots(&picture.rounds, frame, ROUND_CELL, ROUNDS_MAX);
+    let legs = legs(&picture.rounds, frame);
+    let rounds = dots(&legs, frame, ROUND_CELL, ROUNDS_MAX);
     let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));

@@ -48,7 +48,7 @@ impl<'a> Panel<'a> {
             (!picture.route.is_empty(), "its own mission", route_mark),
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
             (!picture.plume.is_empty(), "plume", plume_mark),
-            (!picture.rounds.is_empty(), "round of a loop begins", chart::round_mark),
+            (!chart::legs(&picture.rounds, frame).is_empty(), "round of a loop begins", chart::round_mark),
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
             (!picture.reports.is_empty(), "report", chart::report_mark),
             (!picture.sources.is_empty(), "true source", chart::source_mark),
