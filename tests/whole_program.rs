@@ -60,10 +60,17 @@ fn a_run_gives_one_json_object_with_the_fixed_fields() {
     );
     assert_eq!(
         names(&result["reports"][0]),
-        ["east_m", "error_m", "latitude_deg", "longitude_deg", "name", "north_m", "t_s"]
+        ["east_m", "error_m", "labelled", "latitude_deg", "longitude_deg", "name", "north_m", "t_s", "value"]
     );
     assert_eq!((&result["mission"], &result["outcome"]), (&"box".into(), &"completed".into()));
     assert_eq!((&result["seed"], &result["switches"]), (&1.into(), &2.into()));
+}
+
+#[test]
+fn what_is_reported_is_told_whole() {
+    let output = albacore(&["run", "tests/whole_program/reported.alb", "--json", "--no-out"]);
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    insta::assert_snapshot!(serde_json::to_string_pretty(&result["reports"]).unwrap());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::dimension::Dimension;
 use crate::source::Span;
-use albacore_program::Shape;
+use albacore_program::{GRID_WORDS, Shape};
 use std::sync::Arc;
 
 /// Index of a record declaration.
@@ -34,6 +34,8 @@ pub enum Type {
     Enum(EnumId),
     Optional(Box<Type>),
     List(Box<Type>, u32),
+    /// A grid of so many cells at most, and what each holds.
+    Map(Box<Type>, u32),
     /// The type of `none`, which is of every optional type.
     None,
     /// Of what has been reported already: fits everything, so that no mistake is told twice.
@@ -143,6 +145,7 @@ impl TypeTable {
             }
             Type::Optional(inner) => format!("{}?", self.name(inner)),
             Type::List(inner, capacity) => format!("[{}; {capacity}]", self.name(inner)),
+            Type::Map(inner, cells) => format!("Map[{}; {cells}]", self.name(inner)),
             Type::None => "none".into(),
             Type::Unknown => "?".into(),
         }
@@ -172,6 +175,7 @@ impl TypeTable {
             Type::Enum(id) => Shape::Enum(self.enums[*id].variants.clone()),
             Type::Optional(inner) => Shape::Optional(Box::new(self.shape(inner))),
             Type::List(inner, capacity) => Shape::List(Box::new(self.shape(inner)), *capacity),
+            Type::Map(inner, cells) => Shape::Map(Box::new(self.shape(inner)), *cells),
             Type::None | Type::Unknown => Shape::Bool,
         }
     }
@@ -185,6 +189,7 @@ impl TypeTable {
             }
             Type::Optional(inner) => self.words(inner).saturating_add(1),
             Type::List(inner, capacity) => self.words(inner).saturating_mul(*capacity).saturating_add(1),
+            Type::Map(inner, cells) => self.words(inner).saturating_mul(*cells).saturating_add(1 + GRID_WORDS),
             simple => self.shape(simple).words(),
         }
     }
@@ -200,7 +205,7 @@ impl TypeTable {
             left -= 1;
             match ty {
                 Type::Record(id) => ahead.extend(self.records[*id].fields.iter().map(|(_, ty)| ty)),
-                Type::Optional(inner) | Type::List(inner, _) => ahead.push(inner),
+                Type::Optional(inner) | Type::List(inner, _) | Type::Map(inner, _) => ahead.push(inner),
                 _ => {}
             }
         }

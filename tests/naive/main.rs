@@ -108,7 +108,7 @@ fn generated() {
         "call with a result, for T, until, within, at, with, overlay on course, overlay on vertical",
         "overlay on vertical in a block, let, assignment, var, insert, remove, clear, list, ordered list, memory, signal",
         "if, if let, if value, narrowing, match, match value, for range, for list, for written list, for edges, for rows",
-        "while, while let, loop, finish, abort, report, log, default, limits, requires, recovery, abort on",
+        "map, cell, cell set, for map, while, while let, loop, finish, abort, report, log, default, limits, requires, recovery, abort on",
         "reaction of a mission, reaction of a strategy, reaction of a behavior, reaction of a table's behavior",
         "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
         "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, no, no for, after",

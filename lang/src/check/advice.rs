@@ -265,6 +265,7 @@ impl Checker<'_> {
             }
             Type::Optional(inner) => return self.example(inner),
             Type::List(..) => "a list is asked for, such as `[a, b]`",
+            Type::Map(..) => "a map is asked for, such as `map(over: op, each: 0)`",
             Type::None | Type::Unknown => return None,
         };
         Some(example.to_string())

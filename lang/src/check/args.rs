@@ -24,13 +24,14 @@ const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
 pub(super) const NUMBER: Type = Type::Quantity(Dimension::NONE);
 
 /// The functions that every script knows.
-pub(super) const BUILTINS: [&str; 21] = [
+pub(super) const BUILTINS: [&str; 22] = [
     "point",
     "vector",
     "line",
     "rectangle",
     "polygon",
     "area_file",
+    "map",
     "distance",
     "abs",
     "min",
@@ -352,6 +353,7 @@ impl<'t> Checker<'t> {
                 simple(self, &[("corners", corners)], Builtin::Polygon, Type::Area.optional())
             }
             "area_file" => self.area_file(args, span),
+            "map" => self.map_call(args, span, expected),
             "distance" => {
                 let Some(values) = self.simple_args(name, &[("from", Type::Point), ("to", Type::Point)], args, span)
                 else {

@@ -148,7 +148,9 @@ impl<'t> Checker<'t> {
             ClauseKind::Var { name, ty, value } => self.var_stmt(name, ty.as_ref(), value, span),
             ClauseKind::Assign { name, index: None, value } => self.assignment(name, value)?,
             ClauseKind::Assign { name, index: Some(index), value } => self.element_assigned(name, index, value)?,
-            ClauseKind::For { name, over, block } => return self.for_stmt(name, over, block, span),
+            ClauseKind::For { name, place, over, block } => {
+                return self.for_stmt((name, place.as_ref()), over, block, span);
+            }
             ClauseKind::While { condition, block } => return self.while_stmt(condition, block, span),
             ClauseKind::Loop(block) => {
                 self.enter_loop();

@@ -70,11 +70,15 @@ impl<'t> Checker<'t> {
         names
     }
 
-    /// A list that is given for one of any capacity, and how many it may hold.
-    pub(super) fn list_of_any(&mut self, written: &tree::Expr, inner: &Type) -> (Expr, u32) {
-        // One that is written out may hold any number, until it is known what it is written for.
-        let value = self.expr(written, Some(&Type::List(Box::new(inner.clone()), LIST_CAPACITY_MAX)));
-        let capacity = if let Type::List(_, capacity) = value.ty { capacity } else { 1 };
+    /// A list or a map that is given for one of any capacity, and how many it may hold.
+    pub(super) fn of_any_capacity(&mut self, written: &tree::Expr, ty: &Type) -> (Expr, u32) {
+        // A list that is written out may hold any number, until it is known what it is written for.
+        let widest = match ty {
+            Type::List(inner, _) => Some(Type::List(inner.clone(), LIST_CAPACITY_MAX)),
+            _ => None,
+        };
+        let value = self.expr(written, widest.as_ref());
+        let capacity = if let Type::List(_, n) | Type::Map(_, n) = value.ty { n } else { 1 };
         (value, capacity)
     }
 
@@ -102,11 +106,11 @@ impl<'t> Checker<'t> {
         let mut given: Vec<Option<Given>> = Vec::new();
         for ((written, param), declared) in written.iter().zip(&signature.params).zip(&template.function.params) {
             let place = capacity(&declared.ty).and_then(|name| template.names.iter().position(|known| known == name));
-            let (Some(place), Some(written), Type::List(inner, _)) = (place, written, &param.ty) else {
+            let (Some(place), Some(written), Type::List(..) | Type::Map(..)) = (place, written, &param.ty) else {
                 given.push(written.map(Given::Written));
                 continue;
             };
-            let (value, capacity) = self.list_of_any(written, inner);
+            let (value, capacity) = self.of_any_capacity(written, &param.ty);
             capacities[place] = capacities[place].max(capacity);
             given.push(Some(Given::Known(value)));
         }
@@ -201,7 +205,7 @@ impl<'t> Checker<'t> {
 /// The name that stands for the capacity of a list.
 pub(super) fn capacity(ty: &tree::Ty) -> Option<&str> {
     match &ty.kind {
-        TyKind::List { capacity, .. } => match &capacity.kind {
+        TyKind::List { capacity, .. } | TyKind::Map { cells: capacity, .. } => match &capacity.kind {
             tree::ExprKind::Name(name) => Some(name),
             _ => None,
         },

@@ -196,7 +196,7 @@ impl<'t> Checker<'t> {
             Item::Clause { name, result, of_vehicle, .. } => {
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
-                    TyKind::List { .. } | TyKind::Behavior(_) => None,
+                    TyKind::List { .. } | TyKind::Map { .. } | TyKind::Behavior(_) => None,
                 });
                 let (signature, of_vehicle) = (Signature::named(name), *of_vehicle);
                 let (nested, otherwise) = (Vec::new(), Vec::new());
@@ -304,7 +304,7 @@ impl<'t> Checker<'t> {
                 let Some(fewer) = left.checked_sub(1) else { return false };
                 left = fewer;
                 let mut ty = ty;
-                while let Type::Optional(inner) | Type::List(inner, _) = ty {
+                while let Type::Optional(inner) | Type::List(inner, _) | Type::Map(inner, _) = ty {
                     ty = inner;
                 }
                 match ty {

@@ -263,7 +263,15 @@ impl<'t> Checker<'t> {
 
     fn index(&mut self, base: &tree::Expr, index: &tree::Expr, span: Span) -> Expr {
         let list = self.expr(base, None);
-        let index = self.index_of_element(index);
+        if let Type::Map(inner, _) = list.ty.clone() {
+            let place = self.expr_as(index, &Type::Point, "the place in a map");
+            return self.operation(Builtin::Cell, vec![list, place], inner.optional(), span);
+        }
+        let index = match list.ty {
+            // What is wrong with it has been told, and it may be a map.
+            Type::Unknown => self.expr(index, None),
+            _ => self.index_of_element(index),
+        };
         match list.ty.clone() {
             Type::List(inner, _) => self.operation(Builtin::At, vec![list, index], inner.optional(), span),
             Type::Unknown => self.unknown(span),
@@ -271,7 +279,9 @@ impl<'t> Checker<'t> {
                 let name = self.type_name(&other);
                 let message = format!("{} has no elements to index", article(&name));
                 let finding = Diagnostic::error(Code::TypesIndex, base.span, message).here(format!("`{name}`"));
-                self.report(finding.help("only a list has elements; what else a value has stands after a dot"));
+                self.report(
+                    finding.help("only a list and a map have elements; what else a value has stands after a dot"),
+                );
                 self.unknown(span)
             }
         }

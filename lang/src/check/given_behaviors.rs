@@ -193,8 +193,8 @@ impl<'t> Checker<'t> {
                     self.missing_behavior(&signature.name, param, span);
                     failed = true;
                 }
-                (None, Type::List(inner, _), Some(place), Some(written)) => {
-                    let (value, capacity) = self.list_of_any(written, inner);
+                (None, ty @ (Type::List(..) | Type::Map(..)), Some(place), Some(written)) => {
+                    let (value, capacity) = self.of_any_capacity(written, ty);
                     capacities[place] = capacities[place].max(capacity);
                     given.push(Some(Given::Known(value)));
                 }

@@ -85,8 +85,19 @@ impl<'t> Checker<'t> {
         value: &tree::Expr,
     ) -> Option<StmtKind> {
         let id = self.assignable(name);
-        let inner = id.and_then(|id| self.elements_of(id, name, "only a list has elements that are assigned"));
-        let index = self.index_of_element(index);
+        if let Some(id) = id
+            && let Type::Map(inner, _) = self.scope.vars[id].ty.clone()
+        {
+            let place = self.expr_as(index, &Type::Point, "the place in a map");
+            let value = self.expr_as(value, &inner, &format!("a cell of `{}`", name.node));
+            self.scope.facts.forget(id);
+            return Some(StmtKind::Replace(id, place, value));
+        }
+        let inner = id.and_then(|id| self.elements_of(id, name, "only a list or a map has elements that are assigned"));
+        let index = match &inner {
+            Some(_) => self.index_of_element(index),
+            None => self.expr(index, None),
+        };
         let what = format!("an element of `{}`", name.node);
         let value = self.expr_as(value, &inner.clone().unwrap_or(Type::Unknown), &what);
         let id = id.filter(|_| inner.is_some())?;
@@ -113,7 +124,11 @@ impl<'t> Checker<'t> {
                 let ty = self.type_name(&other);
                 let message = format!("{why}, this is {}", article(&ty));
                 let finding = Diagnostic::error(Code::TypesList, name.span, message).here(format!("`{ty}`"));
-                self.report(finding.help(format!("another value is replaced as a whole: `{} = VALUE`", name.node)));
+                let help = match other {
+                    Type::Map(..) => format!("a cell is set by its place: `{}[position] = VALUE`", name.node),
+                    _ => format!("another value is replaced as a whole: `{} = VALUE`", name.node),
+                };
+                self.report(finding.help(help));
                 None
             }
         }

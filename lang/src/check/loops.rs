@@ -19,11 +19,14 @@ const ROUNDS_MAX: f64 = 10_000.0;
 impl<'t> Checker<'t> {
     pub(super) fn for_stmt(
         &mut self,
-        name: &tree::Name,
+        (name, place): (&tree::Name, Option<&tree::Name>),
         over: &ForOver,
         block: &tree::Block,
         span: Span,
     ) -> Option<Stmt> {
+        if let Some(place) = place {
+            return self.for_map(name, place, over, block, span);
+        }
         let written = match over {
             ForOver::Range(range) => return Some(self.for_range(name, range, block, span)),
             ForOver::List(written) => written,
@@ -45,7 +48,7 @@ impl<'t> Checker<'t> {
         }
         let list = self.expr(written, None);
         let element = match &list.ty {
-            Type::List(inner, _) => (**inner).clone(),
+            Type::List(inner, _) | Type::Map(inner, _) => (**inner).clone(),
             Type::Unknown => Type::Unknown,
             other => {
                 let ty = self.type_name(other);
@@ -53,7 +56,7 @@ impl<'t> Checker<'t> {
                     Diagnostic::error(
                         Code::TypesFor,
                         written.span,
-                        format!("`for` walks a list or a range, this is {}", article(&ty)),
+                        format!("`for` walks a list, a map or a range, this is {}", article(&ty)),
                     )
                     .help("ranges are `0..<n` and `1..n`"),
                 );
@@ -76,7 +79,7 @@ impl<'t> Checker<'t> {
             }
             (var, c.block(block))
         });
-        Some(Stmt { kind: StmtKind::ForList { var, list, body }, span })
+        Some(Stmt { kind: StmtKind::ForList { var, place: None, list, body }, span })
     }
 
     /// `for i in 1..n`.

@@ -11,6 +11,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::{RecordInfo, Type};
 use albacore_arithmetic::{Age, Operation, counted};
+use albacore_program::GRID_WORDS;
 use albacore_wording::listed;
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
@@ -57,6 +58,7 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
         Type::Area => &["center", "edges", "rows", "corner", "contains", "run"],
         Type::Edge => &["normal", "line"],
         Type::Line => &["start", "end", "length", "heading"],
+        Type::Map(..) => &["count", "cell"],
         Type::List(..) => &["count", "first", "top", "spread", "insert", "remove", "clear"],
         Type::Record(id) => {
             names.extend(checker.types.records[*id].fields.iter().map(|(n, _)| n.clone()));
@@ -130,10 +132,9 @@ impl<'t> Checker<'t> {
                 };
                 self.operation(op, vec![along], ty, span)
             }
-            (Type::List(_, n), "count") => {
-                let count = part(self, value, 0, Type::Int);
-                Expr { range: counted(n), ..count }
-            }
+            (Type::List(_, n), "count") => Expr { range: counted(n), ..part(self, value, 0, Type::Int) },
+            (Type::Map(_, n), "count") => Expr { range: counted(n), ..part(self, value, GRID_WORDS, Type::Int) },
+            (Type::Map(..), "cell") => part(self, value, 0, LENGTH),
             (Type::List(inner, _), "first") => {
                 let zero = self.make(ExprKind::Number(0.0), Type::Int, span);
                 self.operation(Builtin::At, vec![value, zero], inner.optional(), span)

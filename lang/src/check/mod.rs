@@ -24,6 +24,7 @@ mod hidden;
 mod lazy;
 mod lists;
 mod loops;
+mod maps;
 mod members;
 mod mission;
 mod names;

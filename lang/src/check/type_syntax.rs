@@ -1,5 +1,6 @@
 //! Types and units as they are written.
 
+use super::maps::MAP_CELLS_MAX;
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -88,25 +89,16 @@ impl<'t> Checker<'t> {
         let inner = match &ty.kind {
             TyKind::List { element, capacity, .. } => {
                 let element = self.written_type(m, element);
-                let scope = Scope { capacities: self.scope.capacities.clone(), ..Scope::new(m, Setting::Constant) };
-                let (capacity, _) = self.within(scope, |c| c.expr_as(capacity, &Type::Int, "the capacity"));
-                match capacity.range.constant() {
-                    Some(n) if (1.0..=f64::from(LIST_CAPACITY_MAX)).contains(&n) => {
-                        Type::List(Box::new(element), n as u32)
-                    }
-                    _ => {
-                        if capacity.ty != Type::Unknown {
-                            self.report(
-                                Diagnostic::error(
-                                    Code::TypesCapacity,
-                                    capacity.span,
-                                    "a list's capacity is a constant",
-                                )
-                                .help(format!("a whole number from 1 to {LIST_CAPACITY_MAX}")),
-                            );
-                        }
-                        Type::Unknown
-                    }
+                match self.capacity(m, capacity, LIST_CAPACITY_MAX, "a list's capacity is a constant") {
+                    Some(n) => Type::List(Box::new(element), n),
+                    None => Type::Unknown,
+                }
+            }
+            TyKind::Map { element, cells } => {
+                let element = self.written_type(m, element);
+                match self.capacity(m, cells, MAP_CELLS_MAX, "how many cells a map has at most is a constant") {
+                    Some(n) => Type::Map(Box::new(element), n),
+                    None => Type::Unknown,
                 }
             }
             TyKind::Named { path, factors } => self.named_type(m, path, factors),
@@ -120,6 +112,18 @@ impl<'t> Checker<'t> {
             }
         };
         if ty.optional { inner.optional() } else { inner }
+    }
+
+    /// How much a list or a map holds at most.
+    fn capacity(&mut self, m: usize, written: &tree::Expr, most: u32, message: &str) -> Option<u32> {
+        let scope = Scope { capacities: self.scope.capacities.clone(), ..Scope::new(m, Setting::Constant) };
+        let (capacity, _) = self.within(scope, |c| c.expr_as(written, &Type::Int, "the capacity"));
+        let known = capacity.range.constant().filter(|n| (1.0..=f64::from(most)).contains(n));
+        if known.is_none() && capacity.ty != Type::Unknown {
+            let finding = Diagnostic::error(Code::TypesCapacity, capacity.span, message);
+            self.report(finding.help(format!("a whole number from 1 to {most}")));
+        }
+        known.map(|n| n as u32)
     }
 
     fn named_type(&mut self, m: usize, path: &tree::Path, factors: &[(tree::Name, f64)]) -> Type {
@@ -174,6 +178,9 @@ impl<'t> Checker<'t> {
                 let finding = Diagnostic::error(Code::TypesUnknown, path.span, format!("there is no type `{name}`"));
                 let elsewhere = self.import_with(m, &name, |def| matches!(def, Def::Record(_) | Def::Enum(_)));
                 let finding = match self.nearest(&name, known) {
+                    _ if name == "Map" => {
+                        finding.help("say what a cell holds, and how many there are at most: `Map[Ratio; 900]`")
+                    }
                     _ if let Some(module) = elsewhere => finding.help(format!("write `{module}.{name}`")),
                     Some(near) => finding.help(format!("did you mean `{near}`?")),
                     None => finding.help("types are Length, Duration, Speed, Angle, Heading, Depth, Altitude, Point, Vector, Int, Bool, … and the records and enums declared"),
@@ -216,7 +223,7 @@ const SIMPLE_TYPES: [&str; 15] = [
 
 /// Whether a name is that of a type which every script knows.
 pub(super) fn is_type(name: &str) -> bool {
-    SIMPLE_TYPES.contains(&name) || Dimension::of_type(name).is_some()
+    SIMPLE_TYPES.contains(&name) || name == "Map" || Dimension::of_type(name).is_some()
 }
 
 /// The unit that a word was probably meant to be: what people write elsewhere, then what is spelt alike.

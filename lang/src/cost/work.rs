@@ -156,6 +156,8 @@ impl<'a> Work<'a> {
             }
             kind => {
                 let weight = match kind {
+                    // Grids of each number of rows are tried.
+                    ExprKind::Do(Builtin::Map, _) => 1 + CORNERS + capacity(Some(&e.ty)),
                     ExprKind::Do(op, operands) => weight(*op, operands),
                     ExprKind::Input(_, InputPart::Hits(_, of)) => 1 + u64::from(*of),
                     _ => 1,
@@ -229,7 +231,11 @@ impl<'a> Work<'a> {
             StmtKind::ForList { list, body, .. } => {
                 let held = capacity(Some(&list.ty));
                 // An element is looked up, and becomes the value of the loop's name.
-                let element = if let Type::List(inner, _) = &list.ty { self.moved(inner).saturating_mul(2) } else { 0 };
+                let element = if let Type::List(inner, _) | Type::Map(inner, _) = &list.ty {
+                    self.moved(inner).saturating_mul(2)
+                } else {
+                    0
+                };
                 sum([self.expr(list), held, self.rounds(stmt.span, held, element, body, vars)])
             }
             StmtKind::ForEdges { area, body, .. } => {
@@ -486,7 +492,7 @@ fn weight(op: Builtin, operands: &[Expr]) -> u64 {
 /// How many a list holds at most.
 fn capacity(ty: Option<&Type>) -> u64 {
     match ty {
-        Some(Type::List(_, capacity)) => u64::from(*capacity),
+        Some(Type::List(_, capacity) | Type::Map(_, capacity)) => u64::from(*capacity),
         _ => 0,
     }
 }

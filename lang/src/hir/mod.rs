@@ -320,6 +320,10 @@ pub enum Builtin {
     Top,
     /// A list and an index.
     At,
+    /// An area and what each cell of a map over it holds.
+    Map,
+    /// A map and a point.
+    Cell,
     Spread,
 }
 
@@ -340,7 +344,7 @@ pub enum StmtKind {
     Insert(VarId, Expr),
     Remove(VarId, Expr),
     Clear(VarId),
-    /// An element of a list, by its index, if there is one.
+    /// An element of a list by its index, or of a map by its place, if there is one.
     Replace(VarId, Expr, Expr),
     If(Expr, Block, Block),
     Match(Expr, Vec<(Vec<usize>, Block)>, Option<Block>),
@@ -353,6 +357,8 @@ pub enum StmtKind {
     },
     ForList {
         var: VarId,
+        /// Of a map: what names the place.
+        place: Option<VarId>,
         list: Expr,
         body: Block,
     },

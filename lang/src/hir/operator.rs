@@ -39,7 +39,7 @@ impl Builtin {
             B::AddVector | B::SubVector | B::Scale | B::Toward | B::Pair | B::Line => return None,
             B::Direction | B::Gap | B::EdgeGap | B::EdgeTangent => return None,
             B::Rectangle | B::Polygon | B::Center | B::Corner | B::NearestEdge | B::Exit => return None,
-            B::Top | B::At | B::VectorQuotient | B::LineVector | B::Run => return None,
+            B::Top | B::At | B::Map | B::Cell | B::VectorQuotient | B::LineVector | B::Run => return None,
         })
     }
 }

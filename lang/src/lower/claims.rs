@@ -4,7 +4,7 @@ use super::Lowering;
 use crate::hir::{Interval, Var, VarKind};
 use crate::types::{Type, is_number};
 use albacore_arithmetic::counted;
-use albacore_program::{ABSOLUTE, Addr, Claim, Input, Slot, Unit};
+use albacore_program::{ABSOLUTE, Addr, Claim, GRID_WORDS, Input, Slot, Unit};
 
 impl<'a> Lowering<'a> {
     /// What is claimed of the variables of a function or an activity whose code begins there and has just been made.
@@ -27,8 +27,10 @@ impl<'a> Lowering<'a> {
                 }
             }
             unit.claims[first..].iter_mut().for_each(|claim| claim.is_param = var.kind == VarKind::Param);
-            if matches!(var.ty, Type::List(..)) {
-                unit.lists.push((slot, self.words(&var.ty)));
+            match var.ty {
+                Type::List(..) => unit.lists.push((slot, self.words(&var.ty))),
+                Type::Map(..) => unit.lists.push((slot + GRID_WORDS, self.words(&var.ty) - GRID_WORDS)),
+                _ => {}
             }
             if matches!(var.kind, VarKind::Param | VarKind::Signal | VarKind::Let | VarKind::Loop) {
                 unit.standing.push((slot, self.words(&var.ty)));
@@ -67,6 +69,7 @@ impl<'a> Lowering<'a> {
             Type::Int => out.push(whole(Interval::INT)),
             Type::Sign => out.push(whole(Interval::SIGN)),
             Type::List(_, capacity) => out.push(whole(counted(*capacity))),
+            Type::Map(_, cells) => out.push(Claim { slot: slot + GRID_WORDS, ..whole(counted(*cells)) }),
             Type::Optional(inner) if present.is_none() => self.claims_of(inner, slot + 1, Some(slot), out),
             Type::Record(id) => {
                 let mut at = slot;

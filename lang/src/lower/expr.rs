@@ -89,7 +89,7 @@ impl<'a> Lowering<'a> {
             ExprKind::Do(op @ (Builtin::And | Builtin::Or), operands) if operands.len() == 2 => {
                 self.and_or_into(*op == Builtin::Or, &operands[0], &operands[1], to);
             }
-            ExprKind::Do(op, operands) => self.scratch(|l| l.builtin(*op, operands, to)),
+            ExprKind::Do(op, operands) => self.scratch(|l| l.builtin(*op, operands, &e.ty, to)),
             ExprKind::Call(id, args) => self.scratch(|l| l.call(*id, args, to, words)),
             ExprKind::Record(fields) => self.side_by_side(fields, to),
             ExprKind::Changed(whole, fields) => {
@@ -232,7 +232,7 @@ impl<'a> Lowering<'a> {
         code
     }
 
-    fn builtin(&mut self, op: Builtin, operands: &[Expr], to: Slot) {
+    fn builtin(&mut self, op: Builtin, operands: &[Expr], ty: &Type, to: Slot) {
         use Builtin as B;
         if op == B::Pair || op == B::Line {
             return self.side_by_side(operands, to);
@@ -243,7 +243,7 @@ impl<'a> Lowering<'a> {
         let c = slots.get(2).copied().unwrap_or(a);
         let d = slots.get(3).copied().unwrap_or(a);
         let element_words = |l: &Self| match &operands[0].ty {
-            Type::List(inner, _) => l.words(inner),
+            Type::List(inner, _) | Type::Map(inner, _) => l.words(inner),
             _ => 1,
         };
         if op == B::Top {
@@ -296,22 +296,15 @@ impl<'a> Lowering<'a> {
             B::Exit => AreaOp::Exit { to, area: a, point: b, heading: c }.into(),
             B::Run => self.run(to, a, b, c),
             B::Top => ListOp::Top { to, list: a, count: b, words: element_words(self) }.into(),
-            B::At => return self.element(to, a, b, &operands[0].ty),
+            B::At => match &operands[0].ty {
+                Type::List(inner, _) => return self.element(to, a, b, inner),
+                _ => return,
+            },
+            B::Map => return self.lay_map(to, a, b, ty),
+            B::Cell => return self.cell(to, a, b, &operands[0].ty),
             B::Spread => ListOp::Spread { to, list: a, heading: b }.into(),
         };
         self.emit(op);
-    }
-
-    /// An element of a list, or none. Of a list of optionals it is the element itself, which may be absent: an optional of an optional is one.
-    fn element(&mut self, to: Slot, list: Slot, index: Slot, ty: &Type) {
-        let Type::List(inner, _) = ty else { return };
-        let words = self.words(inner);
-        let found = if inner.is_optional() { self.temp(words.saturating_add(1)) } else { to };
-        self.emit(ListOp::At { to: found, list, index, words });
-        self.typed(found.saturating_add(1), inner);
-        if found != to {
-            self.copy(to, found.saturating_add(1), words);
-        }
     }
 
     /// Values one after the other.

@@ -6,7 +6,7 @@ use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
 use albacore_arithmetic::Operator;
-use albacore_program::{AreaOp, Compute, ListOp, ROWS_WORDS, Rounds, Slot, When};
+use albacore_program::{AreaOp, Compute, GRID_WORDS, ListOp, MapOp, ROWS_WORDS, Rounds, Slot, When};
 
 impl<'a> Lowering<'a> {
     pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
@@ -56,21 +56,30 @@ impl<'a> Lowering<'a> {
         });
     }
 
-    /// Walks a copy of the list, made at the start.
-    pub(super) fn for_list(&mut self, var: usize, list: &Expr, body: &Block) {
-        let Type::List(inner, _) = &list.ty else { return };
+    /// Walks a copy of the list or map, made at the start.
+    pub(super) fn for_list(&mut self, (var, place): (usize, Option<usize>), list: &Expr, body: &Block) {
+        let (inner, grid) = match &list.ty {
+            Type::List(inner, _) => (inner, 0),
+            Type::Map(inner, _) => (inner, GRID_WORDS),
+            _ => return,
+        };
         let (words, element) = (self.words(&list.ty), self.words(inner));
         let copy = self.lasting(words);
         let (counter, found) = (self.lasting(1), self.lasting(element.saturating_add(1)));
         self.scratch(|l| l.expr_into(list, copy));
         self.emit(Compute::Const { to: counter, value: 0.0 });
         let top = self.here();
-        self.emit(ListOp::At { to: found, list: copy, index: counter, words: element });
+        let cells = copy.saturating_add(grid);
+        self.emit(ListOp::At { to: found, list: cells, index: counter, words: element });
         self.typed(found.saturating_add(1), inner);
         let done = self.emit(Compute::jump_unless(found, 0));
         let to = self.frame.vars[var];
         self.copy(to, found + 1, element);
-        self.walking(var, Rounds::Behind(counter, copy), body);
+        if let Some(place) = place {
+            let to = self.frame.vars[place];
+            self.emit(MapOp::CenterOf { to, map: copy, index: counter });
+        }
+        self.walking(var, Rounds::Behind(counter, cells), body);
         self.count_up(counter);
         self.emit(Compute::jump(top));
         self.land(done);

@@ -11,6 +11,7 @@ mod control;
 mod expr;
 mod inline;
 mod loops;
+mod maps;
 mod prepare;
 mod scenario;
 mod stmt;

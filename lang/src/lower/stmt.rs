@@ -6,8 +6,8 @@ use crate::source::Span;
 use crate::types::Type;
 use albacore_arithmetic::Operator;
 use albacore_program::{
-    ANSWER_WORDS, CallSite, Cause, Channel, Compute, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite, OverrideEnd,
-    ReportSite, Slot, header, setpoints,
+    ANSWER_WORDS, CallSite, Cause, Channel, Compute, GRID_WORDS, GUIDANCE_WORDS, Guide, ListOp, Mark, Op, OverlaySite,
+    OverrideEnd, ReportSite, Slot, header, setpoints,
 };
 
 impl<'a> Lowering<'a> {
@@ -35,8 +35,12 @@ impl<'a> Lowering<'a> {
                 self.emit(Compute::Clear { to, words });
             }
             StmtKind::Replace(var, index, e) => {
-                let (index, item) = (self.expr(index), self.expr(e));
                 let (list, words) = (self.frame.vars[*var], self.words(&e.ty));
+                let (list, index) = match self.vars[*var].ty {
+                    Type::Map(..) => (list + GRID_WORDS, self.cell_of(list, index)),
+                    _ => (list, self.expr(index)),
+                };
+                let item = self.expr(e);
                 self.emit(ListOp::Replace { list, index, item, words });
                 self.sort(*var);
             }
@@ -61,7 +65,7 @@ impl<'a> Lowering<'a> {
             StmtKind::ForRange { var, first, last, inclusive, body } => {
                 self.for_range(*var, first, last, *inclusive, body)
             }
-            StmtKind::ForList { var, list, body } => self.for_list(*var, list, body),
+            StmtKind::ForList { var, place, list, body } => self.for_list((*var, *place), list, body),
             StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
             StmtKind::ForRows { var, area, step, near, body } => self.for_rows(*var, area, (step, near), body),
             StmtKind::While { condition, bind, body } => self.while_loop(condition, *bind, body),

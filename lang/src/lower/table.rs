@@ -139,7 +139,7 @@ impl<'a> Lowering<'a> {
         let mut ahead = vec![guard];
         while let Some(e) = ahead.pop() {
             let is_shown = match &e.kind {
-                ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
+                ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..) | Type::Map(..)),
                 ExprKind::Part(inner, _) => matches!(inner.kind, ExprKind::Var(_)),
                 _ => false,
             };

@@ -149,7 +149,10 @@ impl<'h> Fixed<'h> {
             StmtKind::ForRange { var, first, last, inclusive, .. } => {
                 self.sets((unit, *var), unit, Source::Numbers(first, last, *inclusive));
             }
-            StmtKind::ForList { var, list, .. } => self.sets((unit, *var), unit, Source::Elements(list)),
+            StmtKind::ForList { var, place, list, .. } => {
+                self.changed.extend(place.map(|place| (unit, place)));
+                self.sets((unit, *var), unit, Source::Elements(list));
+            }
             StmtKind::If(e, ..) | StmtKind::Match(e, ..) => self.tests(unit, e),
             StmtKind::While { condition, bind, .. } => {
                 self.tests(unit, condition);

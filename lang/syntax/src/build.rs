@@ -235,6 +235,7 @@ pub(super) fn ty(b: &mut Builder, node: Node) -> Ty {
         match part.rule() {
             Rule::maybe => optional = true,
             Rule::list_ty => kind = list_ty(b, part).unwrap_or(kind),
+            Rule::map_ty => kind = map_ty(b, part).unwrap_or(kind),
             Rule::behavior_ty => kind = TyKind::Behavior(part.parts().map(|p| ty(b, p)).collect()),
             _ => kind = name_ty(part),
         }
@@ -251,6 +252,12 @@ fn list_ty(b: &mut Builder, node: Node) -> Option<TyKind> {
         Some((most, Box::new(expr(b, order.parts().next()?))))
     });
     Some(TyKind::List { element, capacity, order })
+}
+
+fn map_ty(b: &mut Builder, node: Node) -> Option<TyKind> {
+    let mut parts = node.parts();
+    let element = Box::new(ty(b, parts.next()?));
+    Some(TyKind::Map { element, cells: Box::new(expr(b, parts.next()?)) })
 }
 
 fn name_ty(node: Node) -> TyKind {

@@ -98,13 +98,14 @@ fn clause(b: &mut Builder, node: Node) -> Option<ClauseKind> {
         },
         Rule::log => ClauseKind::Log(expr(b, inner.next()?)),
         Rule::for_stmt => {
-            let name = name(inner.next()?);
+            let element = name(inner.next()?);
+            let place = inner.next_if(|next| next.rule() == Rule::name).map(name);
             let first = expr(b, inner.next()?);
             let over = match inner.next_if(|next| next.rule() == Rule::range_op) {
                 Some(op) => ForOver::Range(Range { first, inclusive: is_inclusive(op), last: expr(b, inner.next()?) }),
                 None => ForOver::List(first),
             };
-            ClauseKind::For { name, over, block: block(b, inner.next()?) }
+            ClauseKind::For { name: element, place, over, block: block(b, inner.next()?) }
         }
         Rule::while_stmt => ClauseKind::While {
             condition: super::build_expr::condition(b, inner.next()?)?,

@@ -250,7 +250,9 @@ fn found(rest: &str) -> String {
 /// The rules that the grammar would have taken, as kinds of things, each once.
 fn expectation(rules: &[Rule]) -> String {
     let mut kinds: Vec<String> = Vec::new();
-    for &rule in rules {
+    // Few loops name a place: who has forgotten `in` is not sent to it.
+    let in_loop = rules.contains(&Rule::kw_in);
+    for &rule in rules.iter().filter(|rule| !(in_loop && **rule == Rule::kw_at)) {
         let kind = kind(rule);
         if !kind.is_empty() && !kinds.contains(&kind) {
             kinds.push(kind);
@@ -288,7 +290,7 @@ fn kind(rule: Rule) -> String {
         arrow => "`->`",
         colon => "`:`",
         range | range_op => "`..`",
-        ty | name_ty | list_ty | behavior_ty => "a type",
+        ty | name_ty | list_ty | map_ty | behavior_ty => "a type",
         param | clause_param => "a parameter, `NAME: TYPE`",
         field => "a field, `NAME: TYPE`",
         labelled => "a field, `NAME: VALUE`",

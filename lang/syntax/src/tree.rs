@@ -143,6 +143,13 @@ pub enum TyKind {
     },
     /// `behavior(Point)`, with the types of what it is called with.
     Behavior(Vec<Ty>),
+    /// `Map[Ratio; 900]`.
+    Map {
+        /// What a cell holds.
+        element: Box<Ty>,
+        /// How many cells there are at most.
+        cells: Box<Expr>,
+    },
     /// `[Point; 6] by most KEY`.
     List {
         /// What it holds.
@@ -273,6 +280,8 @@ pub enum ClauseKind {
     Log(Expr),
     For {
         name: Name,
+        /// Of a map: the name of the place.
+        place: Option<Name>,
         over: ForOver,
         block: Block,
     },

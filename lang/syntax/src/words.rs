@@ -41,7 +41,7 @@ const CALLED: u16 = 1 << 10;
 const ARGUMENTS: u16 = 1 << 11;
 
 /// Every word that means something somewhere, but for those that guidance laws begin with: these are in the table of laws.
-const WORDS: [Word; 80] = [
+const WORDS: [Word; 81] = [
     // Declarations.
     word("use", RESERVED | ITEM | FRESH),
     word("const", RESERVED | ITEM | FRESH | NAMES),
@@ -120,6 +120,7 @@ const WORDS: [Word; 80] = [
     word("first", 0),
     word("fresh", 0),
     word("least", 0),
+    word("Map", 0),
     word("most", 0),
     word("new", 0),
     word("offered", 0),

@@ -7,6 +7,7 @@ mod area;
 mod ellipsoid;
 mod geodetic;
 mod globe;
+mod grid;
 mod heading;
 pub mod math;
 mod mercator;
@@ -20,6 +21,7 @@ pub use area::{
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
 pub use globe::{goes_round_a_pole, longitude_beside, longitude_within};
+pub use grid::Grid;
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
 pub use rows::{ROWS_MAX, Rows};

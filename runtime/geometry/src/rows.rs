@@ -7,7 +7,7 @@ use crate::plane::{Line, Point, Vector};
 pub const ROWS_MAX: u32 = 1000;
 
 /// An edge is longer than another by more than this, in metres: of a square's four the first is the longest.
-const LONGER_M: f64 = 1e-3;
+pub(crate) const LONGER_M: f64 = 1e-3;
 
 /// An end of a row is nearer than another by more than this, in metres: from an area's middle all four are equally far.
 const NEARER_M: f64 = 1e-3;

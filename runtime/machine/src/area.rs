@@ -60,7 +60,7 @@ impl Run {
         Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
     }
 
-    fn edges_of(&self, area: Slot) -> impl Iterator<Item = Edge> + Clone + '_ {
+    pub fn edges_of(&self, area: Slot) -> impl Iterator<Item = Edge> + Clone + '_ {
         (0..self.corners(area)).map(move |i| self.edge_of(area, i))
     }
 

@@ -71,13 +71,13 @@ impl Run {
                 Op::Compute(_) => {}
                 Op::Area(op) => self.on_area(op, base),
                 Op::List(op) => self.on_list(p, op, base),
+                Op::Map(op) => self.on_map(op, base),
                 Op::IsNew { to, input } => self.set(b(to), truth(self.is_new(&p.inputs[input as usize]))),
                 Op::Age { to, input } => self.set(b(to), self.age_s(&p.inputs[input as usize])),
                 Op::Hits { to, input, limit, of } => {
                     let hits = self.hits(&p.inputs[input as usize], self.get(b(limit)), of);
                     self.set(b(to), hits);
                 }
-
                 Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
                 Op::Return => return Stop::Return,
                 Op::Yield => return Stop::Yield(pc as Addr),

@@ -19,6 +19,7 @@ mod inputs;
 mod least;
 mod lift;
 mod lists;
+mod maps;
 mod mission;
 mod payload;
 mod requirements;

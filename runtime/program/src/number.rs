@@ -191,6 +191,10 @@ impl Printer<'_> {
                 Some(count) => self.list(shape, count.min(*capacity as usize), tail(words, 1)),
                 None => UNKNOWN.to_string(),
             },
+            Shape::Map(..) => match (index(word(5)), index(word(6))) {
+                (Some(rows), Some(columns)) => format!("map of {rows} x {columns} cells of {} m", metre(first)),
+                _ => UNKNOWN.to_string(),
+            },
         }
     }
 
@@ -214,7 +218,7 @@ impl Printer<'_> {
 }
 
 /// A text by its index. It has no holes: such a text is no value.
-fn plain(texts: &[Text], word: f64) -> String {
+pub fn plain(texts: &[Text], word: f64) -> String {
     let Some(i) = index(word) else { return UNKNOWN.to_string() };
     let Some(text) = texts.get(i) else { return format!("text {i}") };
     let literal = |part: &TextPart| match part {

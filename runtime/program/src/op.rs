@@ -3,10 +3,12 @@
 mod area;
 mod compute;
 mod list;
+mod map;
 
 pub use area::AreaOp;
 pub use compute::{Compute, When};
 pub use list::ListOp;
+pub use map::MapOp;
 
 use crate::{Addr, Cause, Channel, Guide, Slot};
 use serde::{Deserialize, Serialize};
@@ -21,6 +23,8 @@ pub enum Op {
     Area(AreaOp),
     /// On lists.
     List(ListOp),
+    /// On maps.
+    Map(MapOp),
     // ---- inputs
     /// Seconds since the latest sample.
     Age { to: Slot, input: u32 },
@@ -118,5 +122,11 @@ impl From<AreaOp> for Op {
 impl From<ListOp> for Op {
     fn from(op: ListOp) -> Self {
         Op::List(op)
+    }
+}
+
+impl From<MapOp> for Op {
+    fn from(op: MapOp) -> Self {
+        Op::Map(op)
     }
 }

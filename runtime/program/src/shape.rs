@@ -41,6 +41,9 @@ pub enum Shape {
     Optional(Box<Shape>),
     /// A count, then room for so many elements.
     List(Box<Shape>, u32),
+    /// A grid: the side of a cell, the corner of the first, which way a row goes, rows, columns. Then the list of what so many cells at most
+    /// hold, row by row.
+    Map(Box<Shape>, u32),
 }
 
 /// How a quantity is shown to a person.
@@ -62,6 +65,8 @@ pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORN
 pub(crate) const EDGE_WORDS: u32 = 6;
 /// Words of the rows across an area: what of them does not change from one to the next.
 pub const ROWS_WORDS: u32 = 10;
+/// Words of a map's grid: the list of its cells is behind them.
+pub const GRID_WORDS: u32 = 7;
 
 impl Shape {
     /// Whether a text is in it, which means something only beside the texts of its program.
@@ -69,7 +74,7 @@ impl Shape {
         match self {
             Shape::Text => true,
             Shape::Record(_, fields) => fields.iter().any(|(_, shape)| shape.has_text()),
-            Shape::Optional(shape) | Shape::List(shape, _) => shape.has_text(),
+            Shape::Optional(shape) | Shape::List(shape, _) | Shape::Map(shape, _) => shape.has_text(),
             _ => false,
         }
     }
@@ -81,6 +86,27 @@ impl Shape {
             Shape::Record(_, fields) => {
                 let first = fields.iter().position(|(_, shape)| matches!(shape, Shape::Point))?;
                 Some(fields[..first].iter().map(|(_, shape)| shape.words() as usize).sum())
+            }
+            _ => None,
+        }
+    }
+
+    /// The number that a value of it is, or that the first field of a record is which is one; none of what is absent.
+    pub fn first_number<'a>(&'a self, words: &[f64]) -> Option<(&'a Shape, f64)> {
+        match self {
+            Shape::Bool | Shape::Int | Shape::Quantity(_) | Shape::Heading | Shape::Depth | Shape::Altitude => {
+                Some((self, *words.first()?))
+            }
+            Shape::Optional(shape) if words.first().is_some_and(|there| *there != 0.0) => {
+                shape.first_number(words.get(1..)?)
+            }
+            Shape::Record(_, fields) => {
+                let mut rest = words;
+                fields.iter().find_map(|(_, shape)| {
+                    let (field, after) = rest.split_at((shape.words() as usize).min(rest.len()));
+                    rest = after;
+                    shape.first_number(field)
+                })
             }
             _ => None,
         }
@@ -120,6 +146,7 @@ impl Shape {
             }
             Shape::Optional(shape) => shape.words().saturating_add(1),
             Shape::List(shape, capacity) => shape.words().saturating_mul(*capacity).saturating_add(1),
+            Shape::Map(shape, cells) => shape.words().saturating_mul(*cells).saturating_add(1 + GRID_WORDS),
         }
     }
 }

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 15] = [
+const STDLIB: [(&str, &str); 16] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
@@ -22,6 +22,7 @@ const STDLIB: [(&str, &str); 15] = [
     ("instruments", include_str!("../../../stdlib/instruments.alb")),
     ("links", include_str!("../../../stdlib/links.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
+    ("maps", include_str!("../../../stdlib/maps.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
     ("search", include_str!("../../../stdlib/search.alb")),

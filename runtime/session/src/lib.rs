@@ -14,6 +14,7 @@ mod picture;
 mod plan;
 pub mod prompt;
 mod recorders;
+mod reported;
 mod run;
 mod run_vehicle;
 mod scenario;

@@ -48,6 +48,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         area: results.area.clone(),
         plume: world.plume.clone(),
         deepest,
+        map: results.map.clone(),
         start: results.start,
         track: track.points.clone(),
         behaviors: track.behaviors.clone(),

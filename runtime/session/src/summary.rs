@@ -2,6 +2,7 @@
 
 use albacore_geometry::Geodetic;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The result of a run. Names and units are fixed (DESIGN of the command line): scripts rely on them.
@@ -101,6 +102,10 @@ pub struct Report {
     /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
     /// where the bottom has pits or was surveyed.
     pub error_m: Option<f64>,
+    /// What was reported: a number, a text, a list, a record, a place, an area, a map; a quantity is `{"value": …, "unit": …}`.
+    pub value: serde_json::Value,
+    /// What was reported beside it, by its labels.
+    pub labelled: BTreeMap<String, serde_json::Value>,
     /// What that distance is from, in words.
     #[serde(skip)]
     pub error_from: Option<&'static str>,

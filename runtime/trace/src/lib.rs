@@ -18,5 +18,5 @@ pub use active::Active;
 pub use behavior::{BehaviorTrace, Header, Release};
 pub use compare::{Difference, first_difference, first_foreign_line, same_behavior};
 pub use digest::Digest;
-pub use picture::{Depths, Picture};
+pub use picture::{Cells, Depths, Picture};
 pub use record::{Ending, Step, TickRecord};

@@ -1,5 +1,6 @@
 //! The picture of a run: a chart of the track, the plume and what was found, as an SVG that needs nothing else.
 
+mod cells;
 mod chart;
 mod contours;
 mod frame;
@@ -9,6 +10,7 @@ mod track;
 
 use albacore_geometry::{Point, Vector};
 use albacore_svg::{self as svg, Svg};
+pub use cells::Cells;
 pub use contours::Depths;
 use frame::Frame;
 
@@ -59,6 +61,8 @@ pub struct Picture {
     pub leaks: Vec<[Point; 2]>,
     /// The bottom's shape, where it is what is searched.
     pub depths: Depths,
+    /// The map that was reported last.
+    pub map: Option<Cells>,
     /// The deepest point of the operating area, where it is what is searched.
     pub deepest: Option<Point>,
     /// Where the vehicle started.

@@ -1,8 +1,8 @@
 //! The picture of a run.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that fails may panic")]
 
-use albacore_geometry::{Area, Heading, Point, Vector};
-use albacore_trace::{Depths, Digest, Picture};
+use albacore_geometry::{Area, Grid, Heading, Point, Vector};
+use albacore_trace::{Cells, Depths, Digest, Picture};
 
 fn full() -> Picture {
     let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
@@ -194,4 +194,20 @@ fn rounds_of_a_survey_are_named_once_at_a_place_and_turns_of_a_maneuver_are_not(
     assert_eq!(marked(&[survey, survey].concat()), [1, 1, 1]);
     assert_eq!(marked(&[("row 1", 0.0, 0.0), ("row 2", 1.0, 0.0), ("row 1", 0.0, 0.0)]), [0, 0, 0]);
     assert_eq!(marked(&[]), [0, 0, 0]);
+}
+
+#[test]
+fn cells_are_the_darker_the_more_is_in_them() {
+    let grid = Grid { cell: 10.0, corner: Point::ORIGIN, along: Vector::new(1.0, 0.0), rows: 2, columns: 2 };
+    let area = vec![Point::ORIGIN, Point::new(20.0, 0.0), Point::new(20.0, 20.0), Point::new(0.0, 20.0)];
+    let picture = |values: [f64; 4]| {
+        let map = Some(Cells { legend: "belief: 0 to 1".to_string(), grid, values: values.to_vec() });
+        Picture { area: area.clone(), map, ..Picture::default() }.svg()
+    };
+    let svg = picture([0.0, 0.5, 1.0, f64::NAN]);
+    let cells = |svg: &str| svg.lines().filter(|line| line.contains("Z\" fill-opacity")).count();
+    assert_eq!(cells(&svg), 2, "neither the least nor what is no number is drawn: {svg}");
+    assert!(svg.contains("fill-opacity=\"0.75\"") && svg.contains("fill-opacity=\"0.40\""), "{svg}");
+    assert!(svg.contains("belief: 0 to 1"), "{svg}");
+    assert_eq!(cells(&picture([2.0; 4])), 0, "where all cells hold the same there is nothing to be seen");
 }

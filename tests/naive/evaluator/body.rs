@@ -25,6 +25,8 @@ pub enum Todo<'p> {
 #[derive(Clone, Copy)]
 pub struct Walk<'p> {
     var: usize,
+    /// Of a map: its places, which come behind what its cells hold.
+    place: Option<usize>,
     body: &'p Block,
     /// All its rounds.
     of: usize,
@@ -65,7 +67,13 @@ pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>
             }
             Todo::Rounds(walk, mut left) => {
                 if let Some(round) = left.pop() {
-                    frame.set(walk.var, round);
+                    match (walk.place, &round) {
+                        (Some(place), Value::Parts(both)) => {
+                            frame.set(walk.var, both[0].clone());
+                            frame.set(place, both[1].clone());
+                        }
+                        _ => frame.set(walk.var, round),
+                    }
                     todo.push(Todo::Rounds(walk, left));
                     todo.push(Todo::Stmts(&walk.body.stmts));
                 }
@@ -108,7 +116,8 @@ pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>
                 Some((var, mut rounds, body)) => {
                     rounds.reverse();
                     let counts = matches!(stmt.kind, StmtKind::ForRange { .. });
-                    todo.push(Todo::Rounds(Walk { var, body, of: rounds.len(), counts }, rounds));
+                    let place = if let StmtKind::ForList { place, .. } = stmt.kind { place } else { None };
+                    todo.push(Todo::Rounds(Walk { var, place, body, of: rounds.len(), counts }, rounds));
                 }
                 None => perform(w, s, stmt),
             },
@@ -150,7 +159,20 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
             }
             (*var, rounds, body)
         }
-        StmtKind::ForList { var, list, body } => (*var, value(w, s, list).list().to_vec(), body),
+        StmtKind::ForList { var, place, list, body } => {
+            let rounds = match value(w, s, list) {
+                Value::Map(grid, cells) => {
+                    let centers = (0..).map(|i| Value::of_point(grid.center(i)));
+                    let both = |(cell, center): (Value, Value)| match place {
+                        Some(_) => Value::Parts(vec![cell, center]),
+                        None => cell,
+                    };
+                    cells.into_iter().zip(centers).map(both).collect()
+                }
+                list => list.list().to_vec(),
+            };
+            (*var, rounds, body)
+        }
         StmtKind::ForEdges { var, area, body } => {
             (*var, value(w, s, area).edges().iter().map(|edge| Value::of_edge(*edge)).collect(), body)
         }
@@ -185,6 +207,14 @@ fn perform(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &Stmt) {
                 list.remove(at);
             }
             s.frame.set(*var, Value::List(list));
+        }
+        StmtKind::Replace(var, place, e) if matches!(s.frame.get(*var), Value::Map(..)) => {
+            let (place, cell) = (value(w, s, place).point(), value(w, s, e));
+            let Value::Map(grid, mut cells) = s.frame.get(*var) else { return };
+            if let Some(index) = grid.index_of(place) {
+                cells[index as usize] = cell;
+            }
+            s.frame.set(*var, Value::Map(grid, cells));
         }
         StmtKind::Replace(var, index, e) => {
             let (index, element) = (number(w, s, index), value(w, s, e));

@@ -4,7 +4,7 @@ use super::body;
 use super::value::Value;
 use super::watch::Watch;
 use super::world::World;
-use albacore_geometry::{Area, Edge, Heading, Point, Vector, math, wrap_angle};
+use albacore_geometry::{Area, Edge, Grid, Heading, Point, Vector, math, wrap_angle};
 use albacore_lang::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart, Var};
 use albacore_lang::types::Type;
 use albacore_program::{Shape, number};
@@ -112,6 +112,7 @@ fn computed(w: &mut World<'_>, s: Scope<'_, '_>, e: &Expr) -> Value {
             let decided = *op == Builtin::Or;
             Value::truth(if holds(w, s, &operands[0]) == decided { decided } else { holds(w, s, &operands[1]) })
         }
+        ExprKind::Do(Builtin::Map, operands) => map(&values(w, s, operands), &e.ty),
         ExprKind::Do(op, operands) => {
             let operands = values(w, s, operands);
             builtin(*op, &operands)
@@ -315,6 +316,11 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             let list = at(0).list();
             return Value::List(list[..n(1).clamp(0.0, list.len() as f64) as usize].to_vec());
         }
+        B::Map => unreachable!("it is made where its type is known"),
+        B::Cell => {
+            let (grid, cells) = at(0).map();
+            return element(cells, grid.index_of(at(1).point()).map_or(-1.0, f64::from));
+        }
         B::At => {
             return element(at(0).list(), n(1));
         }
@@ -340,6 +346,14 @@ fn element(list: &[Value], index: f64) -> Value {
         Some(Value::Maybe(inner)) => Value::Maybe(inner.clone()),
         found => Value::Maybe(found.cloned().map(Box::new)),
     }
+}
+
+/// A map over an area with the same in each cell.
+fn map(operands: &[Value], ty: &Type) -> Value {
+    let Type::Map(_, cells) = ty else { panic!("no map: {ty:?}") };
+    let edges = operands[0].edges().iter().map(|edge| edge.line);
+    let grid = Grid::over(edges, *cells).expect("an area has corners");
+    Value::Map(grid, vec![operands[1].clone(); (grid.rows * grid.columns) as usize])
 }
 
 fn center(edges: &[Edge]) -> Point {

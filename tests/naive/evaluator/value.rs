@@ -1,6 +1,6 @@
 //! Values as a reader of the language would think of them.
 
-use albacore_geometry::{Edge, Heading, Line, Point, Vector};
+use albacore_geometry::{Edge, Grid, Heading, Line, Point, Vector};
 use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Shape};
 
 /// A value. What is true or false, a variant and a direction are numbers too.
@@ -14,6 +14,8 @@ pub enum Value {
     Maybe(Option<Box<Value>>),
     List(Vec<Value>),
     Area(Vec<Edge>),
+    /// Cells, and what each of them holds.
+    Map(Grid, Vec<Value>),
 }
 
 use Value::{Maybe, Number, Parts};
@@ -92,6 +94,13 @@ impl Value {
         }
     }
 
+    pub fn map(&self) -> (Grid, &[Value]) {
+        match self {
+            Value::Map(grid, cells) => (*grid, cells),
+            other => panic!("no map: {other:?}"),
+        }
+    }
+
     pub fn edges(&self) -> &[Edge] {
         match self {
             Value::Area(edges) => edges,
@@ -118,6 +127,15 @@ impl Value {
                     edges.iter().flat_map(|e| [e.line.start.north, e.line.start.east, e.normal.north, e.normal.east]),
                 )
                 .collect(),
+            (Value::Map(grid, cells), Shape::Map(shape, _)) => {
+                let Grid { cell, corner, along, rows, columns } = *grid;
+                let grid =
+                    [cell, corner.north, corner.east, along.north, along.east, f64::from(rows), f64::from(columns)];
+                grid.into_iter()
+                    .chain([cells.len() as f64])
+                    .chain(cells.iter().flat_map(|cell| cell.words(shape)))
+                    .collect()
+            }
             _ => Vec::new(),
         };
         words.resize(shape.words() as usize, 0.0);
@@ -152,6 +170,13 @@ impl Value {
             Shape::List(shape, _) => {
                 let elements = words[1..].chunks(shape.words() as usize).take(words[0] as usize);
                 Value::List(elements.map(|words| Value::read(shape, words)).collect())
+            }
+            Shape::Map(shape, _) => {
+                let corner = Point::new(words[1], words[2]);
+                let along = Vector::new(words[3], words[4]);
+                let grid = Grid { cell: words[0], corner, along, rows: words[5] as u32, columns: words[6] as u32 };
+                let cells = words[8..].chunks(shape.words() as usize).take(words[7] as usize);
+                Value::Map(grid, cells.map(|words| Value::read(shape, words)).collect())
             }
             Shape::Area => {
                 let corners: Vec<&[f64]> =

@@ -81,7 +81,7 @@ impl Generator {
     /// Memories, signals, reactions.
     pub(super) fn declarations(&mut self, most: usize) {
         for _ in 0..self.random.below(most + 1) {
-            match self.random.below(5) {
+            match self.random.below(6) {
                 0 => {
                     self.count("signal");
                     let (name, condition) = (self.fresh("s"), self.condition());
@@ -110,6 +110,18 @@ impl Generator {
                     let ty = if self.random.percent(50) { Ty::Ints } else { Ty::Points };
                     self.line(&format!("memory {name}: {}", ty.name()));
                     self.declare(&name, ty, true);
+                }
+                3 => {
+                    self.count("map");
+                    let name = self.fresh("cells");
+                    let area = if self.has_area {
+                        "op"
+                    } else {
+                        "rectangle(center: $P, along: $H, length: 40 m, width: 20 m)"
+                    };
+                    let map = self.filled(&format!("map(over: {area}, each: $I)"), 1);
+                    self.line(&format!("memory {name}: {} = {map}", Ty::Cells.name()));
+                    self.declare(&name, Ty::Cells, true);
                 }
                 _ => {
                     self.count("memory");

@@ -85,6 +85,15 @@ impl Generator {
             let (a, b) = (self.expr(ty, deep - 1), self.expr(ty, deep - 1));
             return format!("(match {mode} {{ calm, wild {{ {a} }}; else {{ {b} }} }})");
         }
+        if deep > 0
+            && ty == Ty::Int
+            && self.random.percent(10)
+            && let Some(map) = self.named(|name| name.ty == Ty::Cells)
+        {
+            self.count("cell");
+            let place = self.expr(Ty::Point, deep - 1);
+            return format!("({}[{place}] else {}.count)", map.text, map.text);
+        }
         let simple = deep == 0 || self.random.percent(30);
         let choice = if simple { self.leaf(ty) } else { self.operation(ty) };
         self.filled(&choice, deep.saturating_sub(1))
@@ -169,6 +178,7 @@ impl Generator {
             Ty::MaybeFound => "found_if($B, $F)".to_string(),
             Ty::Ints => "$i".to_string(),
             Ty::Points => "$q".to_string(),
+            Ty::Cells => panic!("a map is made where it is kept"),
         }
     }
 
@@ -239,6 +249,7 @@ impl Generator {
             Ty::MaybeFound => "found_if($B, $F)",
             Ty::Ints => "$i",
             Ty::Points => "$q",
+            Ty::Cells => panic!("a map is made where it is kept"),
         }
         .to_string()
     }

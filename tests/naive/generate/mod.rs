@@ -28,6 +28,7 @@ pub enum Ty {
     MaybeFound,
     Ints,
     Points,
+    Cells,
 }
 
 impl Ty {
@@ -38,6 +39,7 @@ impl Ty {
             Ty::MaybeFound => "Found?",
             Ty::Ints => "[Int; 4]",
             Ty::Points => "[Point; 3]",
+            Ty::Cells => "Map[Int; 6]",
             Ty::Bool => "Bool",
             Ty::Int => "Int",
             Ty::Length => "Length",

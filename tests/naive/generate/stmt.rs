@@ -311,8 +311,17 @@ impl Generator {
 
     /// `for` over a range or a list.
     fn rounds(&mut self, inside: fn(&mut Self)) {
-        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points));
+        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells));
         match (self.random.below(3), list) {
+            (0, Some(map)) if map.ty == Ty::Cells => {
+                self.count("for map");
+                let (name, place) = (self.fresh("each"), self.fresh("place"));
+                self.braces(&format!("for {name} at {place} in {}", map.text), |g| {
+                    g.declare(&name, Ty::Int, false);
+                    g.declare(&place, Ty::Point, false);
+                    inside(g);
+                });
+            }
             (0, Some(list)) => {
                 self.count("for list");
                 let name = self.fresh("each");
@@ -453,6 +462,11 @@ impl Generator {
                         self.line(&format!("{text}.insert({element})"));
                     }
                 }
+            }
+            Ty::Cells => {
+                self.count("cell set");
+                let (place, value) = (self.expr(Ty::Point, 2), self.expr(Ty::Int, 2));
+                self.line(&format!("{text}[{place}] = {value}"));
             }
             ty => {
                 self.count("assignment");

@@ -143,7 +143,9 @@ impl<'a> Builder<'a> {
     /// A sign that the grammar has no rule for.
     fn sign(&mut self, docs: &mut Vec<Doc<'a>>, sign: Node<'a>, of: Rule) {
         let tight = match sign.text() {
-            "(" | "[" if matches!(of, Rule::index | Rule::ask | Rule::action | Rule::behavior_ty) => BOTH,
+            "(" | "[" if matches!(of, Rule::index | Rule::ask | Rule::action | Rule::behavior_ty | Rule::map_ty) => {
+                BOTH
+            }
             "(" | "[" => RIGHT,
             "." | "^" | "°" | "'" => BOTH,
             ")" | "]" | "," | ":" | ";" => LEFT,

@@ -4,7 +4,7 @@ use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges, Results};
 use super::written::written;
-use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, Op, OverrideEnd, Param, Slot};
+use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, MapOp, Op, OverrideEnd, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
 
@@ -17,7 +17,12 @@ impl Ranges<'_> {
         match *op {
             Op::Compute(computed) => self.compute(at, op, computed, known),
             Op::List(list) => self.on_list(op, list, known),
-            Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => self.unknown(op, known),
+            Op::Map(MapOp::CellOf { to, .. }) => {
+                self.set(known, to, Word { range: Interval::new(-1.0, Interval::INT.high), is_whole: true });
+            }
+            Op::Map(_) | Op::Area(_) | Op::Keep { .. } | Op::Answer { .. } | Op::Driven { .. } => {
+                self.unknown(op, known)
+            }
             Op::AskPayload { .. } => self.unknown(op, known),
             Op::Heard { answer, ended, .. } => {
                 self.set(

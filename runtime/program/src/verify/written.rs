@@ -1,7 +1,8 @@
 //! Where code leads and what it writes.
 
 use crate::{
-    ANSWER_WORDS, AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GUIDANCE_WORDS, Guide, ListOp, Op, ROWS_WORDS, Slot, When,
+    ANSWER_WORDS, AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GRID_WORDS, GUIDANCE_WORDS, Guide, ListOp, MapOp, Op,
+    ROWS_WORDS, Slot, When,
 };
 
 /// Whether the next instruction may be executed after this one, in the same tick or a later one.
@@ -19,6 +20,7 @@ pub(super) fn written(op: &Op) -> impl Iterator<Item = (Slot, u32)> {
         Op::Compute(op) => computed(op),
         Op::Area(op) => of_area(op),
         Op::List(op) => of_list(op),
+        Op::Map(op) => of_map(op),
         Op::Age { to, .. } | Op::IsNew { to, .. } | Op::Hits { to, .. } => one((to, 1)),
         Op::Begin { state, .. } => one((state, GUIDANCE_WORDS)),
         // What keeps its course has one word of its own: whether it does.
@@ -114,5 +116,15 @@ fn of_list(op: ListOp) -> Rows {
         ListOp::Sort { list, words, it, .. } => both((list, words.saturating_add(1)), (it, words)),
         ListOp::At { to, words, .. } | ListOp::Top { to, words, .. } => one((to, words.saturating_add(1))),
         ListOp::Spread { to, .. } => one((to, 1)),
+    }
+}
+
+fn of_map(op: MapOp) -> Rows {
+    match op {
+        MapOp::Lay { to, words, capacity, .. } => {
+            one((to, words.saturating_mul(capacity).saturating_add(1 + GRID_WORDS)))
+        }
+        MapOp::CellOf { to, .. } => one((to, 1)),
+        MapOp::CenterOf { to, .. } => one((to, 2)),
     }
 }

@@ -2,16 +2,19 @@
 
 use super::Recorder;
 use crate::plan::Plan;
+use crate::reported::{Reader, fields};
 use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
-use albacore_trace::{Ending, Release, Step, TickRecord};
+use albacore_trace::{Cells, Ending, Release, Step, TickRecord};
 use albacore_vehicle::seconds;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Reports that a result lists; of more only the first of each place of the program that reports, and their number.
 const REPORTS_LISTED_MAX: usize = 10_000;
+/// Words of reports that it lists, in the same way: maps are large.
+const REPORTED_WORDS_MAX: usize = 1_000_000;
 /// A link's positions are 0.2 m fine: shorter steps than this, m, would count its rounding as a way.
 const LINK_GRAIN: f64 = 2.0;
 
@@ -22,6 +25,8 @@ pub(crate) struct Reports {
     pub listed: Vec<Report>,
     /// How many there were beside those.
     pub more: u64,
+    /// The words of those that are listed.
+    words: usize,
     /// The place that was reported last.
     pub latest: Option<Point>,
     sites: BTreeSet<u32>,
@@ -57,10 +62,12 @@ impl Reports {
         }
     }
 
-    /// Whether there is room for one more, of a place of the program.
-    fn admits(&mut self, site: u32) -> bool {
+    /// Whether there is room for one more, of a place of the program and of so many words.
+    fn admits(&mut self, site: u32, words: usize) -> bool {
         let first = self.sites.insert(site);
-        let admits = first || self.listed.len() < REPORTS_LISTED_MAX;
+        let is_room = self.listed.len() < REPORTS_LISTED_MAX && self.words + words <= REPORTED_WORDS_MAX;
+        let admits = first || is_room;
+        self.words += if admits { words } else { 0 };
         self.more += u64::from(!admits);
         admits
     }
@@ -101,6 +108,8 @@ pub(crate) struct Results {
     pub area: Vec<Point>,
     /// The deepest point of that, once it has one; none where the water is equally deep everywhere.
     pub deepest: Option<Point>,
+    /// The map that was reported last.
+    pub map: Option<Cells>,
     /// Where the vehicle was first.
     pub start: Option<Point>,
     /// Ticks so far.
@@ -119,6 +128,7 @@ impl Results {
             reports: Reports::default(),
             area: Vec::new(),
             deepest: None,
+            map: None,
             start,
             ticks: 0,
             ending: None,
@@ -202,12 +212,19 @@ impl Results {
         self.reports.latest = place.or(self.reports.latest);
         let t_s = seconds(tick);
         self.reports.count(&site.name, Reported { t_s, place });
-        if !self.reports.admits(id) {
+        let frame = self.plan.frame();
+        let reader = Reader { program: &program, frame };
+        let map = fields(site, words).find_map(|(label, shape, words)| {
+            reader.cells(if label.is_empty() { &site.name } else { label }, shape, words)
+        });
+        self.map = map.or(self.map.take());
+        if !self.reports.admits(id, words.len()) {
             return;
         }
-        let frame = self.plan.frame();
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let sought = place.and_then(|p| self.sought(p));
+        let values = fields(site, words).map(|(label, shape, words)| (label.to_string(), reader.json(shape, words)));
+        let mut values: BTreeMap<_, _> = values.collect();
         self.reports.listed.push(Report {
             name: site.name.clone(),
             t_s,
@@ -217,6 +234,8 @@ impl Results {
             longitude_deg: globe.map(|g| g.longitude_deg()),
             error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
             error_from: sought.map(|(_, what)| what),
+            value: values.remove("").unwrap_or_default(),
+            labelled: values,
         });
     }
 

@@ -224,7 +224,7 @@ impl<'a> Deserializer<'a> for Value<'a> {
                 what: "a text is written out here".into(),
                 mend: Some("write it between quotes: a parameter of the type `Text` is no part of any clause".into()),
             }),
-            Shape::Line | Shape::Edge | Shape::Enum(_) | Shape::Record(..) => {
+            Shape::Line | Shape::Edge | Shape::Enum(_) | Shape::Record(..) | Shape::Map(..) => {
                 Err(de::Error::custom("no clause takes such a value"))
             }
         }

@@ -48,6 +48,7 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     area(svg, picture, frame, "fill=\"#fff\"");
     grid(svg, frame);
     picture.depths.draw(svg, frame);
+    picture.map.iter().for_each(|map| map.draw(svg, frame));
     plume(svg, picture, frame);
     area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
     for (_, corners) in &picture.no_go {

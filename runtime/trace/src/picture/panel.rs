@@ -1,6 +1,8 @@
 //! The panel beside the chart: north, flow, scale bar, and what the colours and marks mean.
 
-use super::{Picture, chart, contours, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px};
+use super::{
+    Picture, cells, chart, contours, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px,
+};
 use albacore_geometry::Vector;
 use albacore_program::number;
 
@@ -41,6 +43,7 @@ impl<'a> Panel<'a> {
     pub fn new(picture: &'a Picture, frame: &Frame) -> Self {
         let seen: std::collections::BTreeSet<u16> = picture.track.iter().map(|(_, behavior)| *behavior).collect();
         let depths = picture.depths.legend();
+        let map = picture.map.as_ref().map_or("", |map| map.legend.as_str());
         let area = if picture.area_name.is_empty() { "operating area" } else { &picture.area_name };
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
@@ -55,6 +58,7 @@ impl<'a> Panel<'a> {
             (!picture.leaks.is_empty(), "leak", leak_mark),
             (picture.deepest.is_some(), "truly deepest", chart::source_mark),
             (!depths.is_empty(), &depths, depth_mark),
+            (!map.is_empty(), map, cells::mark),
         ];
         let marks =
             there.into_iter().filter(|(there, ..)| *there).map(|(_, name, mark)| (name.to_string(), mark)).collect();
@@ -65,7 +69,8 @@ impl<'a> Panel<'a> {
     pub fn width(&self) -> f64 {
         let names = self.behaviors.iter().map(|behavior| svg::text_width(&self.name(*behavior), 13.0));
         let flows = self.flows().map(|(name, flow)| FLOW_AT + svg::text_width(&speed(name, flow), 13.0) / 2.0);
-        names.map(|name| NAMES + name).chain(flows).fold(WIDTH_MIN, f64::max).min(WIDTH_MAX)
+        let marks = self.marks.iter().map(|(name, _)| svg::text_width(name, 13.0));
+        names.chain(marks).map(|name| NAMES + name).chain(flows).fold(WIDTH_MIN, f64::max).min(WIDTH_MAX)
     }
 
     /// How high it is, in pixels.
