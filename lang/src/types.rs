@@ -97,6 +97,14 @@ impl Type {
         }
     }
 
+    /// What an element of a list or a cell of a map is.
+    pub fn element(&self) -> Option<&Type> {
+        match self {
+            Type::List(inner, _) | Type::Map(inner, _) => Some(inner),
+            _ => None,
+        }
+    }
+
     /// Whether it may be absent.
     pub fn is_optional(&self) -> bool {
         matches!(self, Type::Optional(_) | Type::None)

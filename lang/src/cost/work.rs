@@ -231,11 +231,7 @@ impl<'a> Work<'a> {
             StmtKind::ForList { list, body, .. } => {
                 let held = capacity(Some(&list.ty));
                 // An element is looked up, and becomes the value of the loop's name.
-                let element = if let Type::List(inner, _) | Type::Map(inner, _) = &list.ty {
-                    self.moved(inner).saturating_mul(2)
-                } else {
-                    0
-                };
+                let element = list.ty.element().map_or(0, |inner| self.moved(inner).saturating_mul(2));
                 sum([self.expr(list), held, self.rounds(stmt.span, held, element, body, vars)])
             }
             StmtKind::ForEdges { area, body, .. } => {

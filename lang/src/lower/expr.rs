@@ -242,10 +242,7 @@ impl<'a> Lowering<'a> {
         let b = slots.get(1).copied().unwrap_or(a);
         let c = slots.get(2).copied().unwrap_or(a);
         let d = slots.get(3).copied().unwrap_or(a);
-        let element_words = |l: &Self| match &operands[0].ty {
-            Type::List(inner, _) | Type::Map(inner, _) => l.words(inner),
-            _ => 1,
-        };
+        let element_words = |l: &Self| operands[0].ty.element().map_or(1, |inner| l.words(inner));
         if op == B::Top {
             // Lists are compared word by word, what is beyond their count too.
             let words = self.words(&operands[0].ty);
