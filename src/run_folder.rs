@@ -10,7 +10,7 @@ use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::message;
 use crate::synced::WRITTEN_INTO;
-use albacore_session::{Form, PICTURE, Run, RunFile, Summary};
+use albacore_session::{Form, PICTURE, Run, RunFile, Summary, TRACE};
 use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
 pub use record::{Record, RunRequest};
@@ -134,6 +134,7 @@ impl RunFolder {
     pub fn never_began(&mut self, why: &str) {
         let Some((folder, record)) = self.files.as_mut() else { return };
         record.fails(why);
+        [JOURNAL, TRACE.name, PICTURE.name].into_iter().for_each(|name| record.loses(name, "the run could not be begun"));
         let ended = record.json(folder.record.room()).map_err(io::Error::from);
         if let Err(error) = ended.and_then(|text| folder.record.finish(&text)) {
             message::error(&disk::not_written(&folder.path.join(RECORD), &error), None);
@@ -267,5 +268,8 @@ mod tests {
         let told = std::fs::read_to_string(folder.join(RECORD)).unwrap();
         std::fs::remove_dir_all(&folder).unwrap();
         assert!(told.contains(r#""outcome": "failed""#) && told.contains("no thread can be started"), "{told}");
+        for name in [JOURNAL, TRACE.name, PICTURE.name] {
+            assert!(told.contains(&format!("\"{name}\": \"the run could not be begun\"")), "{told}");
+        }
     }
 }

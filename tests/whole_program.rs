@@ -86,6 +86,14 @@ fn a_mission_that_does_not_end_well_ends_with_1() {
 }
 
 #[test]
+fn a_vehicle_that_leaves_in_the_recovery_is_told_as_that() {
+    let output = albacore(&["run", "tests/whole_program/left_in_recovery.alb", "--json", "--no-out"]);
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ended = (&result["outcome"], &result["reason"]);
+    assert_eq!(ended, (&"released_by_vehicle".into(), &"in the recovery after an abort: enough".into()));
+}
+
+#[test]
 fn wrong_usage_ends_with_2() {
     ends_with(&["run", "missions/bix.alb"], 2, "did you mean `missions/box.alb`?");
     ends_with(&["check", "missions/bix.alb"], 2, "did you mean `missions/box.alb`?");

@@ -30,6 +30,8 @@ pub(crate) struct Driver {
     asked_for_control: bool,
     /// Why the mission ends, when that is known.
     reason: String,
+    /// The tick in which that was said.
+    reason_tick: u64,
     /// What the vehicle or its link gave notice of last.
     last_notice: String,
     knows_area: bool,
@@ -71,6 +73,7 @@ impl Driver {
             digest: RunDigest::default(),
             asked_for_control: false,
             reason: String::new(),
+            reason_tick: 0,
             last_notice: String::new(),
             knows_area: false,
             next: Next::Tick,
@@ -216,6 +219,7 @@ impl Driver {
     /// Ends the run. The release is always the last act; then it is only written down.
     fn end(&mut self, cause: Cause, record: &mut TickRecord) -> Outcome {
         record.clear(record.tick);
+        let from_outside = matches!(cause, Cause::Outside(..));
         let outcome = match cause {
             Cause::Mission(outcome) => outcome,
             Cause::Outside(outcome, reason) => {
@@ -229,8 +233,8 @@ impl Driver {
         self.describe(record);
         record.area = self.area();
         let heard = matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost);
-        if heard && self.reason.is_empty() && record.truth.is_none() {
-            self.reason.clone_from(&self.last_notice);
+        if heard && !from_outside {
+            self.vehicle_left(record);
         }
         let released = self.vehicle.port().release();
         self.hear(record);
@@ -254,6 +258,19 @@ impl Driver {
         outcome
     }
 
+    /// The vehicle drives itself again: why, as it said, and why the recovery was under way if it was.
+    fn vehicle_left(&mut self, record: &TickRecord) {
+        let told = if record.truth.is_none() { self.last_notice.as_str() } else { "" };
+        let before = std::mem::take(&mut self.reason);
+        self.reason = match (told, before.as_str()) {
+            (told, "") => told.to_string(),
+            // An abort of this very moment is the vehicle's leaving, in the mission's words.
+            (_, before) if record.tick <= self.reason_tick + 1 => before.to_string(),
+            ("", before) => format!("in the recovery after an abort: {before}"),
+            (told, before) => format!("{told}, in the recovery after an abort: {before}"),
+        };
+    }
+
     /// What the vehicle gave notice of: no part of the digest, for when it comes is no matter of the run.
     fn hear(&mut self, record: &mut TickRecord) {
         record.notices.extend(self.vehicle.port().notices());
@@ -266,6 +283,8 @@ impl Driver {
     fn note_events(&mut self, record: &mut TickRecord) {
         record.events.extend_from_slice(self.machine.events());
         for event in &record.events {
+            let ends = matches!(event, Event::Aborted(_) | Event::TimedOut | Event::HostTimeUp(..));
+            self.reason_tick = if ends { record.tick } else { self.reason_tick };
             match event {
                 Event::Aborted(why) => self.reason.clone_from(why),
                 Event::TimedOut => self.reason = "time limit".to_string(),
