@@ -190,7 +190,7 @@ fn leaves<'p>(w: &World<'p>, owner: &Activation<'p>, guard: &'p Expr) -> Vec<(St
         let mut inside = Vec::new();
         let is_named = |e: &Expr| matches!(e.kind, ExprKind::Var(_));
         let shown = match &e.kind {
-            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..)),
+            ExprKind::Var(_) | ExprKind::Input(..) => !matches!(e.ty, Type::Area | Type::List(..) | Type::Map(..)),
             ExprKind::Part(inner, _) => is_named(inner),
             _ => false,
         };
