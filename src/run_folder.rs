@@ -134,7 +134,9 @@ impl RunFolder {
     pub fn never_began(&mut self, why: &str) {
         let Some((folder, record)) = self.files.as_mut() else { return };
         record.fails(why);
-        [JOURNAL, TRACE.name, PICTURE.name].into_iter().for_each(|name| record.loses(name, "the run could not be begun"));
+        [JOURNAL, TRACE.name, PICTURE.name]
+            .into_iter()
+            .for_each(|name| record.loses(name, "the run could not be begun"));
         let ended = record.json(folder.record.room()).map_err(io::Error::from);
         if let Err(error) = ended.and_then(|text| folder.record.finish(&text)) {
             message::error(&disk::not_written(&folder.path.join(RECORD), &error), None);

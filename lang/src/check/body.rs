@@ -284,26 +284,24 @@ impl<'t> Checker<'t> {
         name
     }
 
+    /// A name in quotes.
     pub(super) fn plain_text(&mut self, text: &tree::Expr) -> String {
-        match &text.kind {
-            tree::ExprKind::Text(parts) => {
-                let mut plain = String::new();
-                for part in parts {
-                    match part {
-                        tree::TextPart::Literal(literal) => plain.push_str(literal),
-                        tree::TextPart::Hole(hole) => {
-                            let span = hole.span;
-                            self.report(
-                                Diagnostic::error(Code::TypesName, span, "a name cannot have holes")
-                                    .help("tests and tables look for it: write it out"),
-                            );
-                        }
-                    }
+        let tree::ExprKind::Text(parts) = &text.kind else {
+            let finding = Diagnostic::error(Code::TypesName, text.span, "a name is a text");
+            self.report(finding.help("write it in quotes: `\"source\"`"));
+            return String::new();
+        };
+        let mut plain = String::new();
+        for part in parts {
+            match part {
+                tree::TextPart::Literal(literal) => plain.push_str(literal),
+                tree::TextPart::Hole(hole) => {
+                    let finding = Diagnostic::error(Code::TypesName, hole.span, "a name cannot have holes");
+                    self.report(finding.help("tests and tables look for it: write it out"));
                 }
-                plain
             }
-            _ => String::new(),
         }
+        plain
     }
 
     fn let_stmt(&mut self, name: &tree::Name, ty: Option<&tree::Ty>, timed: &tree::Timed, span: Span) -> Option<Stmt> {

@@ -10,7 +10,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_wording::listed;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// What stands after `truth`, beside how the vehicle moves.
@@ -35,8 +35,8 @@ const NO_BEACON: &str = "the scenario has no beacon";
 /// What is said without a deepest point.
 const NO_DEEPEST: &str = "no point of the mission's area is the deepest";
 
-/// The types of what a mission reports, by name.
-pub(super) type Reports = BTreeMap<String, Vec<Type>>;
+/// The types of what a mission reports, by name and by label.
+pub(super) type Reports = BTreeMap<String, Vec<BTreeMap<String, Type>>>;
 
 /// The test whose expectations are being checked.
 pub(super) struct TestScope {
@@ -296,21 +296,21 @@ impl<'t> Checker<'t> {
         if !QUESTIONS.contains(&name) {
             return None;
         }
+        let asks_for_value = matches!(name, "reported" | "last_reported");
+        if asks_for_value && args.len() == 2 {
+            let Some([text, label]) = self.positional::<2>(name, args, span) else { return Some(self.unknown(span)) };
+            let (what, label_text) = (self.plain_text(&text), self.plain_text(&label));
+            return Some(self.reported_value(&what, (&label_text, label.span), name == "reported", span));
+        }
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
         let what = self.plain_text(&text);
-        let values = self.test.as_ref().and_then(|test| test.reports.get(&what).cloned()).unwrap_or_default();
+        let sites = self.test.as_ref().and_then(|test| test.reports.get(&what).cloned()).unwrap_or_default();
         let is_place = |ty: &Type| self.types.shape(ty).first_point().is_some();
+        let values: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get("")).collect();
         // What is reported as a place each time is one whenever it was reported.
-        let all_places = values.iter().all(is_place);
-        let never = !values.is_empty() && !values.iter().any(is_place);
-        let asks_for_place = matches!(name, "reported" | "last_reported");
-        if let Some(ty) = values.first().filter(|_| asks_for_place && never).map(|ty| self.type_name(ty)) {
-            let what = format!("what is reported as \"{what}\" is no place: it is {}", article(&ty));
-            self.report(
-                Diagnostic::error(Code::TestsReport, text.span, what)
-                    .help("`has_reported` tells whether it was reported, `reported_at` when"),
-            );
-            return Some(self.unknown(span));
+        let all_places = values.iter().copied().all(is_place);
+        if asks_for_value && !values.is_empty() && !values.iter().copied().any(is_place) {
+            return Some(self.reported_value(&what, ("", text.span), name == "reported", span));
         }
         let none = format!("nothing was reported as \"{what}\"");
         let no_place = |which: &str| format!("the {which} report \"{what}\" has no place, or there is none");
@@ -326,13 +326,56 @@ impl<'t> Checker<'t> {
             _ => ReportPart::FirstPlace,
         };
         // Whether it was reported is known with when.
-        let var = self.report_var(&what, part, text.span);
-        let without = match (part, all_places) {
+        let without = match (&part, all_places) {
             (ReportPart::FirstPlace, false) => no_place("first"),
             (ReportPart::LastPlace, false) => no_place("last"),
             _ => none,
         };
+        let var = self.report_var(&what, part, text.span);
         Some(self.taken_for_granted(var, without, span))
+    }
+
+    /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in the first report of a name or in the last.
+    fn reported_value(&mut self, what: &str, (label, at): (&str, Span), first: bool, span: Span) -> Expr {
+        let sites = self.test.as_ref().and_then(|test| test.reports.get(what).cloned()).unwrap_or_default();
+        let types: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get(label)).collect();
+        let which = if first { "first" } else { "last" };
+        let time = if first { ReportPart::FirstTime } else { ReportPart::LastTime };
+        // Whether there is such a report at all is known with when; a name that nothing reports is told there.
+        let when = self.report_var(what, time, span);
+        let Some(ty) = types.first().map(|ty| (*ty).clone()) else {
+            if !sites.is_empty() {
+                let message = format!("what is reported as \"{what}\" has no label \"{label}\"");
+                let finding = Diagnostic::error(Code::TestsReport, at, message);
+                let labels: Vec<&str> = sites.iter().flat_map(BTreeMap::keys).map(String::as_str).collect();
+                let labels: BTreeSet<&str> = labels.into_iter().filter(|label| !label.is_empty()).collect();
+                self.report(match labels.is_empty() {
+                    true => finding.help("it has none: `report \"NAME\": VALUE, label: VALUE` gives it some"),
+                    false => finding.help(format!("it has {}", listed(&Vec::from_iter(labels)))),
+                });
+            }
+            return self.unknown(span);
+        };
+        let another = types.iter().find(|other| ***other != ty).map(|other| self.type_name(other));
+        let has_text = self.types.shape(&ty).has_text();
+        if another.is_some() || has_text {
+            let name = self.type_name(&ty);
+            let message = match another {
+                Some(other) => format!("this is reported as {} here, as {} there", article(&name), article(&other)),
+                None => format!("what is reported is {}, and no two texts can be compared", article(&name)),
+            };
+            let finding = Diagnostic::error(Code::TestsReport, at, message);
+            self.report(finding.help("`has_reported` tells whether it was reported, `reported_at` when"));
+            return self.unknown(span);
+        }
+        let part = if first { ReportPart::FirstValue } else { ReportPart::LastValue };
+        let var = self.report_var_of(what, part(label.to_string()), ty.optional(), span);
+        if types.len() < sites.len() {
+            let without = format!("the {which} report \"{what}\" has no \"{label}\", or there is none");
+            return self.taken_for_granted(var, without, span);
+        }
+        self.taken_for_granted(when, format!("nothing was reported as \"{what}\""), span);
+        self.variable(var, span).unwrapped()
     }
 
     /// Whether something was reported: then its first report and its last are known, and their places, where each is one.
@@ -344,7 +387,7 @@ impl<'t> Checker<'t> {
         let known: Vec<Expr> = parts
             .iter()
             .map(|part| {
-                let var = self.report_var(what, *part, named);
+                let var = self.report_var(what, part.clone(), named);
                 self.is_known(var, span)
             })
             .collect();
@@ -372,15 +415,20 @@ impl<'t> Checker<'t> {
 
     /// The variable that holds what is asked of a report: one for each name.
     fn report_var(&mut self, what: &str, part: ReportPart, span: Span) -> usize {
-        let key = (part, what.to_string());
+        let ty = match part {
+            ReportPart::FirstTime | ReportPart::LastTime => Type::Quantity(Dimension::TIME).optional(),
+            ReportPart::Count => Type::Int,
+            _ => Type::Point.optional(),
+        };
+        self.report_var_of(what, part, ty, span)
+    }
+
+    /// The same, of a type that the reports have.
+    fn report_var_of(&mut self, what: &str, part: ReportPart, ty: Type, span: Span) -> usize {
+        let key = (part.clone(), what.to_string());
         if let Some(id) = self.test.as_ref().and_then(|test| test.report_vars.get(&key)) {
             return *id;
         }
-        let ty = match part {
-            ReportPart::FirstPlace | ReportPart::LastPlace => Type::Point.optional(),
-            ReportPart::FirstTime | ReportPart::LastTime => Type::Quantity(Dimension::TIME).optional(),
-            ReportPart::Count => Type::Int,
-        };
         let id = self.declare_hidden(format!("report \"{what}\" {part:?}"), VarKind::Signal, ty, span);
         if part == ReportPart::Count {
             self.scope.vars[id].range = Interval::new(0.0, REPORTS_MAX);

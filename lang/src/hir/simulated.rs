@@ -150,7 +150,7 @@ impl Motion {
 }
 
 /// What a test asks of a report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReportPart {
     /// Where it was first, if it was a place.
     FirstPlace,
@@ -162,6 +162,10 @@ pub enum ReportPart {
     LastTime,
     /// How often it was.
     Count,
+    /// What stood behind a label when it was first; without a label the value itself.
+    FirstValue(String),
+    /// The same when it was last.
+    LastValue(String),
 }
 
 /// An expectation.
@@ -191,7 +195,7 @@ pub enum When<A> {
 impl<T: Copy> TestNames<T> {
     /// The same names for something else.
     pub fn map<U>(&self, f: impl Fn(T) -> U) -> TestNames<U> {
-        let report = |(part, name, x): &(ReportPart, String, T)| (*part, name.clone(), f(*x));
+        let report = |(part, name, x): &(ReportPart, String, T)| (part.clone(), name.clone(), f(*x));
         TestNames {
             position: f(self.position),
             nearest_source: f(self.nearest_source),

@@ -21,10 +21,14 @@ impl Hir {
         called
     }
 
-    /// The types of what a mission and all that it calls report, by name.
-    pub fn reports(&self, mission: ActivityId) -> BTreeMap<String, Vec<Type>> {
-        let mut types = BTreeMap::<String, Vec<Type>>::new();
-        self.each_report(mission, &mut |name, value| types.entry(name.to_string()).or_default().push(value.ty.clone()));
+    /// What a mission and all that it calls report, by name: for each place that does the labels, of which the first is empty, with the types
+    /// of what stands behind them.
+    pub fn reports(&self, mission: ActivityId) -> BTreeMap<String, Vec<BTreeMap<String, Type>>> {
+        let mut types = BTreeMap::<String, Vec<BTreeMap<String, Type>>>::new();
+        self.each_report(mission, &mut |name, fields| {
+            let labelled = fields.iter().map(|(label, value)| (label.clone(), value.ty.clone()));
+            types.entry(name.to_string()).or_default().push(labelled.collect());
+        });
         types
     }
 
@@ -43,15 +47,13 @@ impl Hir {
         asks
     }
 
-    /// Calls `f` on the name and the value of every report of a mission and of all that it calls.
-    pub fn each_report<'h>(&'h self, mission: ActivityId, f: &mut dyn FnMut(&'h str, &'h Expr)) {
+    /// Calls `f` on the name and the labelled values of every report of a mission and of all that it calls.
+    pub fn each_report<'h>(&'h self, mission: ActivityId, f: &mut dyn FnMut(&'h str, &'h [(String, Expr)])) {
         for id in self.called_from(mission) {
             for block in self.activities[id].blocks() {
                 block.each(&mut |stmt| {
-                    if let StmtKind::Report { name, fields } = &stmt.kind
-                        && let Some((_, value)) = fields.first()
-                    {
-                        f(name, value);
+                    if let StmtKind::Report { name, fields } = &stmt.kind {
+                        f(name, fields);
                     }
                 });
             }

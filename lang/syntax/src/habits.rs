@@ -114,7 +114,7 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
             help: format!("write `report \"{next}\": {value}`"),
         });
     }
-    if first == "run" && !before.contains(" in ") {
+    if first == "run" && !(before.contains(" in ") && before.contains(" seeds ")) {
         return only("write `run MISSION in SCENARIO seeds 1..20`");
     }
     None

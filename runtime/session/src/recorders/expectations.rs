@@ -151,6 +151,12 @@ impl<'t> Expectations<'t> {
         }
         for (part, name, slot) in &slots.reports {
             let told = results.reports.named(name);
+            if let ReportPart::FirstValue(label) | ReportPart::LastValue(label) = part {
+                let told =
+                    told.map(|told| if matches!(part, ReportPart::FirstValue(_)) { &told.first } else { &told.last });
+                evaluation.set(*slot, &results.labelled(name, label, told));
+                continue;
+            }
             let place = |report: &Reported| if_any(report.place).to_vec();
             let time = |report: &Reported| vec![1.0, report.t_s];
             let words = match (part, told) {
@@ -160,11 +166,12 @@ impl<'t> Expectations<'t> {
                 (ReportPart::LastPlace, Some(told)) => place(&told.last),
                 (ReportPart::FirstTime, Some(told)) => time(&told.first),
                 (ReportPart::LastTime, Some(told)) => time(&told.last),
+                (ReportPart::FirstValue(_) | ReportPart::LastValue(_), _) => continue,
             };
             let width = match part {
                 ReportPart::FirstPlace | ReportPart::LastPlace => 3,
                 ReportPart::FirstTime | ReportPart::LastTime => 2,
-                ReportPart::Count => 1,
+                _ => 1,
             };
             evaluation.set(*slot, &words[..width]);
         }

@@ -35,14 +35,17 @@ pub(crate) struct Reports {
 }
 
 /// Something that was reported: when, and where, if it was a place.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Reported {
     pub t_s: f64,
     pub place: Option<Point>,
+    /// Which place of the program reported it.
+    site: u32,
+    words: Arc<[f64]>,
 }
 
 /// The reports of a name.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Named {
     pub first: Reported,
     pub last: Reported,
@@ -58,7 +61,10 @@ impl Reports {
     fn count(&mut self, name: &str, reported: Reported) {
         match self.named.get_mut(name) {
             Some(named) => (named.last, named.count) = (reported, named.count + 1),
-            None => _ = self.named.insert(name.to_string(), Named { first: reported, last: reported, count: 1 }),
+            None => {
+                let named = Named { first: reported.clone(), last: reported, count: 1 };
+                self.named.insert(name.to_string(), named);
+            }
         }
     }
 
@@ -174,6 +180,20 @@ impl Results {
         }
     }
 
+    /// What stands behind a label of a report, as an optional; as many words where there is none.
+    pub fn labelled(&self, name: &str, label: &str, report: Option<&Reported>) -> Vec<f64> {
+        let sites = &self.plan.program.reports;
+        let own = report.and_then(|report| Some((sites.get(report.site as usize)?, &report.words)));
+        if let Some((site, words)) = own
+            && let Some((.., words)) = fields(site, words).find(|(other, ..)| *other == label)
+        {
+            return [&[1.0], words].concat();
+        }
+        let labels = sites.iter().filter(|site| site.name == name).flat_map(|site| &site.fields);
+        let width = labels.filter(|(other, _)| other == label).map(|(_, value)| value.shape.words()).max();
+        vec![0.0; 1 + width.unwrap_or(0) as usize]
+    }
+
     /// Where a source truly is, by its name; of a leak where it begins.
     pub fn source(&self, name: &str) -> Option<Point> {
         let sources = &self.plan.scenario.environment.sources;
@@ -211,7 +231,7 @@ impl Results {
         let place = at.and_then(|at| Some(Point::new(*words.get(at)?, *words.get(at + 1)?)));
         self.reports.latest = place.or(self.reports.latest);
         let t_s = seconds(tick);
-        self.reports.count(&site.name, Reported { t_s, place });
+        self.reports.count(&site.name, Reported { t_s, place, site: id, words: words.into() });
         let frame = self.plan.frame();
         let reader = Reader { program: &program, frame };
         let map = fields(site, words).find_map(|(label, shape, words)| {
