@@ -50,6 +50,7 @@ fn the_examples_of_the_reference_are_checked() {
 #[test]
 fn the_answers_of_the_cookbook_are_checked() {
     all_hold("docs/cookbook.md", 20);
+    all_hold("docs/moos-ivp.md", 1);
 }
 
 /// A test that is shown passes, but for its snapshot, which a page cannot hold.
