@@ -141,11 +141,20 @@ fn words() -> impl Iterator<Item = Word> {
     WORDS.into_iter().chain(verbs.into_iter().map(|verb| word(verb, RESERVED | CLAUSE)))
 }
 
+/// All of them by their first letters: every word of a text is looked for.
+static BY_INITIAL: LazyLock<Vec<Vec<Word>>> = LazyLock::new(|| {
+    let mut initials = vec![Vec::new(); 128];
+    for word in words() {
+        let initial = word.text.bytes().next().and_then(|first| initials.get_mut(usize::from(first)));
+        initial.into_iter().for_each(|alike: &mut Vec<Word>| alike.push(word));
+    }
+    initials
+});
+
 /// The word of a text, if it is one.
 pub fn find(text: &str) -> Option<Word> {
-    let verb = || Guide::ALL.into_iter().map(|guide| guide.law().verb).find(|verb| *verb == text);
-    let listed = WORDS.iter().find(|word| word.text == text).copied();
-    listed.or_else(|| Some(word(verb()?, RESERVED | CLAUSE)))
+    let alike = BY_INITIAL.get(usize::from(*text.as_bytes().first()?))?;
+    alike.iter().find(|word| word.text == text).copied()
 }
 
 fn has(text: &str, uses: u16) -> bool {
