@@ -114,6 +114,7 @@ impl Campaign {
         if let Some(trouble) = trouble {
             return Err(trouble);
         }
+        table.settle()?;
         match all {
             Ok(true) => {}
             Ok(false) => {

@@ -5,7 +5,7 @@ use crate::disk;
 use crate::synced::Synced;
 use albacore_session::Digest;
 use std::fs::File;
-use std::io;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// A file with a digest of all that was written to it.
@@ -52,6 +52,11 @@ impl DigestedFile {
         self.file.write_whole(line).map_err(|error| TableError::Disk(self.path.clone(), error))?;
         self.digest = digest(self.digest, line);
         Ok(())
+    }
+
+    /// Sees to it that the disk has all of it.
+    pub fn settle(&mut self) -> Result<(), TableError> {
+        self.file.flush().map_err(|error| TableError::Disk(self.path.clone(), error))
     }
 
     /// What it holds: what was written.

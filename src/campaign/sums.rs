@@ -57,6 +57,11 @@ impl Sums {
         self.0.add(record(line).as_bytes())
     }
 
+    /// Sees to it that the disk has all of them.
+    pub fn settle(&mut self) -> Result<(), TableError> {
+        self.0.settle()
+    }
+
     /// An error if they are not as they were written.
     pub fn is_whole(&mut self) -> Result<(), TableError> {
         self.0.text().map(drop)

@@ -354,6 +354,14 @@ impl Table {
         Ok(())
     }
 
+    /// Sees to it that the disk has all that was added: an error of the last second would be told to nobody else.
+    pub fn settle(&mut self) -> Result<(), TableError> {
+        match &mut self.state {
+            State::Adding { file, sums, .. } => file.settle().and_then(|()| sums.settle()),
+            State::Mending { .. } => Ok(()),
+        }
+    }
+
     /// What the rows come to, when all are written.
     pub fn tally(&mut self, columns: &Columns, origin: &Provenance) -> Result<Tally, TableError> {
         match provenance::read(&self.path) {

@@ -150,8 +150,10 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
     if let Some(name) = beside_journal().find(|name| is_there(name) && !is_left(&folder.join(name))) {
         return Err(foreign(&folder.join(name)));
     }
-    // Whoever ends this in between finds no record beside another journal, and no picture beside another record.
-    let done = beside_journal().chain([JOURNAL]).try_for_each(|name| {
+    // Whoever ends this in between finds no record beside another journal, and no picture beside another record. What was recorded goes
+    // before the record, which alone tells that it is a run's.
+    let others = beside_journal().filter(|name| *name != RECORDED.name);
+    let done = std::iter::once(RECORDED.name).chain(others).chain([JOURNAL]).try_for_each(|name| {
         let path = folder.join(name);
         remove(&path).map_err(|error| unwritable(&path, &error))
     });
@@ -227,7 +229,8 @@ fn unreadable(path: &Path, error: &io::Error) -> Refusal {
 mod tests {
     use super::*;
 
-    /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it.
+    /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it but what it
+    /// recorded, which nothing else tells to be a run's.
     #[test]
     fn a_run_is_replaced_from_its_record_to_its_journal() {
         for allowed in 0..2 + RUN_FILES.len() {
@@ -239,7 +242,12 @@ mod tests {
             let mut remove = |path: &Path| {
                 let old: Vec<&str> = files().filter(|name| folder.path().join(name).exists()).collect();
                 assert!(old.contains(&JOURNAL), "after {removed}: {old:?}");
-                assert!(old.len() == files().count() || !old.contains(&RECORD), "after {removed}: {old:?}");
+                let recorded = usize::from(old.contains(&RECORDED.name));
+                assert!(
+                    old.len() == files().count() - 1 + recorded || !old.contains(&RECORD),
+                    "after {removed}: {old:?}"
+                );
+                assert!(old.contains(&RECORD) || recorded == 0, "after {removed}: {old:?}");
                 removed += 1;
                 if removed > allowed { Err(ErrorKind::PermissionDenied.into()) } else { disk::remove(path) }
             };

@@ -23,6 +23,8 @@ const BEGINS_WITHIN_M: f64 = 2_000.0;
 const BEGINS_ABOVE_M: f64 = 20.0;
 /// ... and a position whose standard deviation is no more than this, m: a larger one would let any other follow it.
 const BEGINS_SIGMA_M: f64 = 100.0;
+/// The standard deviation of a poor satellite fix, m an axis.
+const FIX_SIGMA_M: f64 = 10.0;
 /// ... or a first battery with less in it than this.
 const BEGINS_CHARGED: f64 = 0.2;
 const FIRST_SAMPLES: u32 = 2;
@@ -197,10 +199,10 @@ impl Judged {
     }
 
     /// A doubtful reading as the next is held against it: its standard deviation is as doubtful as itself, and counts no more than
-    /// that of the last position that was believed.
+    /// that of the last position that was believed, or of a satellite fix. Such fixes scatter about the truth, each by itself.
     fn held(&self, doubtful: Reading) -> Reading {
         let [a, b, sigma, d] = doubtful;
-        let most = self.believed.map_or(BEGINS_SIGMA_M, |(before, _)| before[2]);
+        let most = self.believed.map_or(BEGINS_SIGMA_M, |(before, _)| before[2].max(FIX_SIGMA_M));
         if self.number == POSITION { [a, b, sigma.min(most), d] } else { doubtful }
     }
 

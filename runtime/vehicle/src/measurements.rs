@@ -134,6 +134,10 @@ measurements! {
     UTC: MeasurementInfo::of("utc", Quantity::Date).of_instrument("date");
     /// Where a beacon is that the vehicle hears: as far from where it believes to be as it hears it.
     BEACON: MeasurementInfo::of("beacon", Quantity::Position).of_instrument("usbl");
+    /// The radius of the tightest circle that the vehicle drives.
+    TURN_RADIUS: MeasurementInfo::of("turn_radius", Quantity::Height).of_instrument("abilities");
+    /// How fast it is through the water, at most.
+    TOP_SPEED: MeasurementInfo::of("top_speed", Quantity::Speed).of_instrument("abilities");
 }
 
 /// A measurement of ours by its number.

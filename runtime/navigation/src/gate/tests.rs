@@ -57,6 +57,21 @@ fn a_fix_within_the_errors_of_both_is_believed_at_once() {
     assert_eq!(judged(POSITION, positions), (vec![], vec![]));
 }
 
+/// An attack: satellite fixes that scatter by 5 m, each second another, came after a dead reckoning that was sure of itself, and the mission
+/// was aborted. Each was held against the one before as if that were exact.
+#[test]
+fn fixes_that_scatter_as_they_say_persist_together() {
+    for shift in 0..200u64 {
+        let scatter = |n: u64| ((n * 7_919 + shift * 104_729) % 1009) as f64 / 1009.0 * 24.0 - 12.0;
+        let positions = (0..200u64).map(|tick| match tick.checked_sub(10) {
+            None => (tick, [0.0, 0.0, 0.05]),
+            Some(after) => (tick, [scatter(2 * (after / 10)), scatter(2 * (after / 10) + 1), 5.0]),
+        });
+        let (withheld, _) = judged(POSITION, positions);
+        assert!(withheld.iter().all(|tick| *tick <= 50), "{shift}: {withheld:?}");
+    }
+}
+
 #[test]
 fn noise_all_over_the_place_is_never_believed_and_told_once() {
     let places = (0..300u64).map(|tick| {

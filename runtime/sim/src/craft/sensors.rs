@@ -1,6 +1,7 @@
 //! The vehicle's instruments: what a scenario says of each, what of that cannot be, and what it makes of the truth. A file for each, and
 //! this is their register.
 
+mod abilities;
 mod adcp;
 mod battery;
 mod clock;
@@ -15,6 +16,7 @@ mod pressure;
 mod sounder;
 mod usbl;
 
+pub use abilities::Abilities;
 pub use adcp::{Adcp, Looks};
 pub use battery::Battery;
 pub use clock::Date;
@@ -30,6 +32,7 @@ pub use usbl::Usbl;
 use crate::craft::hull::Motion;
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
+use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::Estimate;
@@ -74,6 +77,8 @@ pub struct InstrumentSetup {
     pub date: Option<Date>,
     /// The receiver of beacons; none: the vehicle has none.
     pub usbl: Option<Usbl>,
+    /// What the vehicle tells of itself; none: nothing.
+    pub abilities: Option<Abilities>,
 }
 
 /// Whether a vehicle has an instrument: one that it may lack is an `Option`.
@@ -131,6 +136,7 @@ clauses! {
     "battery" Battery => battery;
     "date" Date => date in Some;
     "usbl" Usbl => usbl in Some;
+    "abilities" Abilities => abilities in Some;
 }
 
 impl InstrumentSetup {
@@ -159,6 +165,7 @@ pub(crate) struct Instruments {
     battery: BatteryGauge,
     clock: Option<Clock>,
     usbl: Option<UsblReceiver>,
+    data_sheet: Option<DataSheet>,
 }
 
 impl Instruments {
@@ -174,11 +181,12 @@ impl Instruments {
             battery: BatteryGauge::new(&setup.battery, seed),
             clock: setup.date.clone().map(Clock),
             usbl: setup.usbl.as_ref().map(|usbl| UsblReceiver::new(usbl, seed)),
+            data_sheet: setup.abilities.clone().map(DataSheet),
         }
     }
 
     /// All of them, in the order in which a snapshot holds what they tell: a part of every recorded run.
-    fn in_order(&mut self) -> [&mut dyn Instrument; 9] {
+    fn in_order(&mut self) -> [&mut dyn Instrument; 10] {
         [
             &mut self.navigation,
             &mut self.pressure,
@@ -189,6 +197,7 @@ impl Instruments {
             &mut self.battery,
             &mut self.clock,
             &mut self.usbl,
+            &mut self.data_sheet,
         ]
     }
 
