@@ -1,8 +1,10 @@
 //! What reading and checking a script costs: `cargo bench --bench check`.
 
+use albacore_grammar::{Grammar, Rule};
 use albacore_lang::load;
 use albacore_session::{Files, Source};
 use divan::Bencher;
+use pest::Parser;
 use std::path::Path;
 
 const CPT: &str = include_str!("../stdlib/cpt.alb");
@@ -22,6 +24,14 @@ fn cpt(bencher: Bencher) {
 #[divan::bench]
 fn ten_thousand_lines(bencher: Bencher) {
     check(bencher, &repeated());
+}
+
+/// The same text read by the grammar alone: `check` is held to four times that.
+#[divan::bench]
+fn ten_thousand_lines_by_the_grammar_alone(bencher: Bencher) {
+    let prepared = albacore_lang::syntax::prepared(&repeated());
+    assert!(Grammar::parse(Rule::file, &prepared).is_ok(), "the script has errors");
+    bencher.bench(|| Grammar::parse(Rule::file, &prepared).map(Iterator::count));
 }
 
 /// As `albacore check` does, all imports included, without the terminal.
