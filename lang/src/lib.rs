@@ -296,6 +296,11 @@ impl Script {
         self.mission_id(mission).map(|id| self.hir.asks(id)).unwrap_or_default().into_iter().collect()
     }
 
+    /// For how many corners its areas have room.
+    pub(crate) fn area_room(&self) -> u32 {
+        self.types.area_room
+    }
+
     /// The checked program, its types, and where a mission stands in it.
     pub fn checked(&self, mission: &str) -> Option<(&hir::Hir, &types::TypeTable, hir::ActivityId)> {
         let id = self.mission_id(mission)?;

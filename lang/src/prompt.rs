@@ -45,6 +45,8 @@ pub struct Prompt {
     with: Vec<tree::WithItem>,
     /// The modules that declare those overlays, by names that nobody can type.
     with_modules: BTreeMap<String, usize>,
+    /// For how many corners areas have room: for those of the largest of the script.
+    area_room: u32,
     lines: usize,
 }
 
@@ -93,7 +95,8 @@ impl Prompt {
         let script = crate::finish(&mut loader, wanted);
         let Loader { sources, modules, known, .. } = loader;
         let (overrides, with_modules) = (script.overrides.clone(), BTreeMap::new());
-        let mut prompt = Prompt { sources, modules, known, overrides, with: Vec::new(), with_modules, lines: 0 };
+        let (with, area_room) = (Vec::new(), script.area_room());
+        let mut prompt = Prompt { sources, modules, known, overrides, with, with_modules, area_room, lines: 0 };
         let file = prompt.sources.add(Source { name: "<prompt>".into(), text: SETPOINTS_AT_FIRST.into() });
         for clause in syntax::parse_lines(file, SETPOINTS_AT_FIRST).0.clauses {
             if let tree::ClauseKind::With(items) = clause.kind {
@@ -160,9 +163,9 @@ impl Prompt {
         if !has_error(&findings) {
             // Earlier lines and the script were checked when they came.
             let of_new = |f: &Diagnostic| self.sources.get(f.span().file).name == name;
-            findings.extend(
-                check::check(&self.modules, library, self.overrides.clone()).findings.into_iter().filter(of_new),
-            );
+            let checked = check::check_with_room(&self.modules, library, self.overrides.clone(), self.area_room);
+            findings.extend(checked.findings.into_iter().filter(of_new));
+            findings.extend(check::too_large(&checked.types, Span { file, start: 0, end: text.len() as u32 }));
         }
         diagnostic::settle(&mut findings);
         if has_error(&findings) {
@@ -332,12 +335,14 @@ impl Prompt {
         module.known = Some(known.iter().map(Named::known).collect());
         let mut modules = self.modules.clone();
         modules.push(module);
-        let check::Checked { hir, types, findings, .. } = check::check(&modules, library, self.overrides.clone());
+        let checked = check::check_with_room(&modules, library, self.overrides.clone(), self.area_room);
+        let check::Checked { hir, types, findings, .. } = checked;
         let mission = hir.activities.iter().rposition(|a| a.full_name == MISSION).unwrap_or_default();
         // A line has no area, no limit in time and no recovery: the person at the prompt is there. Other findings are of
         // sources that were looked at before.
         let mut findings: Vec<Diagnostic> =
             findings.into_iter().filter(|f| f.span().file == span.file && f.code.group() != "missions").collect();
+        findings.extend(check::too_large(&types, span));
         if !has_error(&findings) {
             // What a line reads and has not come is told when it is driven.
             let meant = |f: &Diagnostic| f.severity == Severity::Error && f.code.group() != "missions";

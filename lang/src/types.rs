@@ -71,13 +71,20 @@ fn qualified(module: &str, name: &str) -> String {
     if module.is_empty() { name.to_string() } else { format!("{module}.{name}") }
 }
 
+/// An area has room for so many corners at least, which few that are written by hand have.
+pub const AREA_ROOM: u32 = 16;
+
 /// The declared types of a program.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct TypeTable {
     /// Records, by [`RecordId`].
     pub records: Vec<RecordInfo>,
     /// Enums, by [`EnumId`].
     pub enums: Vec<EnumInfo>,
+    /// For how many corners any area of the program has room: for those of the largest.
+    pub area_room: u32,
+    /// How many corners the largest that it can make has.
+    pub corners: u32,
 }
 
 impl Type {
@@ -121,6 +128,11 @@ impl Type {
 }
 
 impl TypeTable {
+    /// Without any declared type.
+    pub fn new(area_room: u32) -> Self {
+        TypeTable { records: Vec::new(), enums: Vec::new(), area_room, corners: 0 }
+    }
+
     /// A type as a script writes it.
     pub fn name(&self, ty: &Type) -> String {
         match ty {
@@ -172,7 +184,7 @@ impl TypeTable {
             Type::Date => Shape::Date,
             Type::Point => Shape::Point,
             Type::Vector(d) => Shape::Vector(d.display()),
-            Type::Area => Shape::Area,
+            Type::Area => Shape::Area(self.area_room),
             Type::Edge => Shape::Edge,
             Type::Line => Shape::Line,
             Type::Record(id) => {

@@ -3,7 +3,7 @@
 use super::{Checker, ParamInfo};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Builtin, Expr, ExprKind, TextPart};
+use crate::hir::{Expr, ExprKind, TextPart};
 use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::Type;
@@ -109,15 +109,14 @@ impl Checker<'_> {
     }
 
     /// The area of corners that are known to make one.
-    fn polygon_of(&self, corners: &[area_file::Position], span: Span) -> Expr {
+    fn polygon_of(&mut self, corners: &[area_file::Position], span: Span) -> Expr {
         let corner = |c: &area_file::Position| {
             let kind = ExprKind::Geodetic { latitude_deg: c.latitude_deg, longitude_deg: c.longitude_deg };
             self.make(kind, Type::Point, span)
         };
         let list = ExprKind::List(corners.iter().map(corner).collect());
         let list = self.make(list, Type::List(Box::new(Type::Point), corners.len() as u32), span);
-        let area = self.operation(Builtin::Polygon, vec![list], Type::Area.optional(), span);
-        area.unwrapped()
+        self.area_of(list, span).unwrapped()
     }
 
     /// A text without values in it: a file is read before anything is known of a run.

@@ -9,7 +9,7 @@ use crate::hir::{Builtin, Expr, ExprKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
-use albacore_geometry::{AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
+use albacore_geometry::{AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 use albacore_program::{Channel, Guide};
 use albacore_syntax::other_languages;
 use albacore_wording::listed;
@@ -348,10 +348,7 @@ impl<'t> Checker<'t> {
                 values[2..].iter().for_each(|side| self.side(side));
                 self.operation(Builtin::Rectangle, values, Type::Area, span)
             }
-            "polygon" => {
-                let corners = Type::List(Box::new(Type::Point), AREA_CORNERS_MAX as u32);
-                simple(self, &[("corners", corners)], Builtin::Polygon, Type::Area.optional())
-            }
+            "polygon" => self.polygon(args, expected, span),
             "area_file" => self.area_file(args, span),
             "map" => self.map_call(args, span, expected),
             "distance" => {

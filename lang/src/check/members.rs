@@ -43,6 +43,7 @@ fn methods(ty: &Type) -> Vec<Method> {
         ],
         Type::Edge => vec![
             method("gap", POINT_PARAM, Builtin::EdgeGap, LENGTH),
+            method("distance", POINT_PARAM, Builtin::EdgeDistance, LENGTH),
             method("tangent", &[("nearest", Type::Heading)], Builtin::EdgeTangent, Type::Heading),
         ],
         _ => Vec::new(),
@@ -55,7 +56,7 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
     let more: &[&str] = match ty {
         Type::Point => &["north", "east"],
         Type::Vector(_) => &["north", "east", "length", "toward", "dot"],
-        Type::Area => &["center", "edges", "rows", "corner", "contains", "run"],
+        Type::Area => &["center", "hull", "edges", "rows", "corner", "contains", "run"],
         Type::Edge => &["normal", "line"],
         Type::Line => &["start", "end", "length", "heading"],
         Type::Map(..) => &["count", "cell"],
@@ -118,6 +119,7 @@ impl<'t> Checker<'t> {
             (Type::Vector(d), "length") => self.operation(Builtin::Length, vec![value], Type::Quantity(d), span),
             (Type::Vector(_), "toward") => self.operation(Builtin::Direction, vec![value], Type::Heading, span),
             (Type::Area, "center") => self.operation(Builtin::Center, vec![value], Type::Point, span),
+            (Type::Area, "hull") => self.operation(Builtin::Hull, vec![value], Type::Area, span),
             (Type::Area, "edges") => self.only_walked("edges", "write `for edge in area.edges { … }`", span),
             (Type::Edge, "line") => part(self, value, 0, Type::Line),
             (Type::Edge, "normal") => part(self, value, 4, Type::Vector(Dimension::NONE)),

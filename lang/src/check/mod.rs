@@ -33,10 +33,12 @@ mod overlay;
 mod params;
 mod payload;
 mod plausibility;
+mod polygon;
 mod recording;
 mod records;
 mod recursion;
 mod result_range;
+mod room;
 mod scenario;
 mod table;
 mod test;
@@ -55,6 +57,7 @@ pub use ends::never_ends;
 pub(crate) use flow::{goes_round, least_time, takes_time};
 pub use params::Override;
 pub(crate) use plausibility::range_of_var;
+pub use room::{check, too_large};
 
 use crate::Library;
 use crate::diagnostic::Diagnostic;
@@ -360,8 +363,8 @@ pub struct Checked {
     pub files: Vec<Source>,
 }
 
-/// Checks all modules. Their files of data come from the library.
-pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>) -> Checked {
+/// Checks all modules, where areas have room for so many corners.
+pub fn check_with_room(modules: &[Module], library: &dyn Library, overrides: Vec<Override>, area_room: u32) -> Checked {
     let whole::Whole { modules, homes, baseless, findings } = whole::strategies(modules);
     let modules = modules.as_ref();
     let mut checker = Checker {
@@ -395,7 +398,7 @@ pub fn check(modules: &[Module], library: &dyn Library, overrides: Vec<Override>
         overlay_ids: BTreeSet::new(),
         mission_ids: BTreeSet::new(),
         overrides,
-        types: TypeTable::default(),
+        types: TypeTable::new(area_room),
         hir: Hir::default(),
         scope: Scope::new(0, Setting::Constant),
         tests_named: BTreeMap::new(),

@@ -124,7 +124,8 @@ impl<'t> Checker<'t> {
     }
 
     fn otherwise(&mut self, left: &tree::Expr, right: &tree::Expr, expected: Option<&Type>, span: Span) -> Expr {
-        let a = self.expr(left, expected);
+        let may_be_absent = expected.map(|ty| ty.clone().optional());
+        let a = self.expr(left, may_be_absent.as_ref());
         let inner = match &a.ty {
             Type::Optional(inner) => (**inner).clone(),
             Type::Unknown => {

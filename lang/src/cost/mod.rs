@@ -9,6 +9,7 @@ pub(crate) mod limits;
 mod memory;
 mod places;
 pub(crate) mod together;
+mod weight;
 mod work;
 
 pub use memory::{Held, Memory};

@@ -2,6 +2,7 @@
 
 use super::bill::Bill;
 use super::places;
+use super::weight::{capacity, in_order, weight};
 use crate::check::takes_time;
 use crate::hir::{
     self, Action, Activity, ActivityId, Block, Body, Builtin, ClauseArg, ClauseUse, Decl, Expr, ExprKind, FnId, Hir,
@@ -9,14 +10,16 @@ use crate::hir::{
 };
 use crate::source::{Sources, Span};
 use crate::types::{Type, TypeTable};
-use albacore_geometry::{AREA_CORNERS_MAX, ROWS_MAX};
+use albacore_geometry::ROWS_MAX;
 use std::collections::BTreeMap;
 
-const CORNERS: u64 = AREA_CORNERS_MAX as u64;
 /// So many words are copied in the 10 ns that a million steps to a tick leave room for ten times over.
 const WORDS_A_STEP: u64 = 8;
-/// The edges of an area are gone through so often before its first row: for the longest, for the width, and for the outermost rows.
-const ACROSS: u64 = 4;
+/// The edges of an area are gone through so often before its first row: for the longest, for the width, for the outermost rows, and
+/// to count the rows on the lines, whose number may be halved ten times.
+const ACROSS: u64 = 4 + 11;
+/// And so often for each row: which of them its line crosses, and where, in which order.
+const A_ROW: u64 = 2;
 
 /// A loop that goes round within a tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,6 +117,11 @@ impl<'a> Work<'a> {
         })
     }
 
+    /// For how many corners areas have room.
+    fn corners(&self) -> u64 {
+        u64::from(self.types.area_room)
+    }
+
     /// What it takes to move a value about: large ones are copied.
     fn moved(&self, ty: &Type) -> u64 {
         u64::from(self.types.words(ty)) / WORDS_A_STEP
@@ -157,8 +165,8 @@ impl<'a> Work<'a> {
             kind => {
                 let weight = match kind {
                     // Grids of each number of rows are tried.
-                    ExprKind::Do(Builtin::Map, _) => 1 + CORNERS + capacity(Some(&e.ty)),
-                    ExprKind::Do(op, operands) => weight(*op, operands),
+                    ExprKind::Do(Builtin::Map, _) => 1 + self.corners() + capacity(Some(&e.ty)),
+                    ExprKind::Do(op, operands) => weight(*op, operands, self.corners()),
                     ExprKind::Input(_, InputPart::Hits(_, of)) => 1 + u64::from(*of),
                     _ => 1,
                 };
@@ -235,12 +243,12 @@ impl<'a> Work<'a> {
                 sum([self.expr(list), held, self.rounds(stmt.span, held, element, body, vars)])
             }
             StmtKind::ForEdges { area, body, .. } => {
-                sum([self.expr(area), self.rounds(stmt.span, CORNERS, 0, body, vars)])
+                sum([self.expr(area), self.rounds(stmt.span, self.corners(), 0, body, vars)])
             }
             StmtKind::ForRows { area, step, near, body, .. } => {
-                // A row is held against each edge, twice: how far off it is, and where they cross.
-                let rows = self.rounds(stmt.span, u64::from(ROWS_MAX), 2 * CORNERS, body, vars);
-                sum([self.exprs([area, step, near]), ACROSS * CORNERS, rows])
+                let across = ACROSS * (self.corners() + u64::from(ROWS_MAX) / WORDS_A_STEP);
+                let rows = self.rounds(stmt.span, u64::from(ROWS_MAX), A_ROW * self.corners(), body, vars);
+                sum([self.exprs([area, step, near]), across, rows])
             }
             // Each round takes time: in a tick one ends and the next begins.
             StmtKind::While { condition, body, .. } => {
@@ -276,7 +284,7 @@ impl<'a> Work<'a> {
         let Some(var) = vars.get(var) else { return 0 };
         let Some(order) = &var.order else { return 0 };
         let held = capacity(Some(&var.ty));
-        let compared = held.saturating_mul(u64::from(held.max(1).ilog2() + 1));
+        let compared = in_order(held);
         // Each element is put where its key finds it, and back; and all of them are put where they belong.
         let moved = self.moved(&var.ty).saturating_mul(4);
         // The keys are computed to see whether there is anything to do, and to do it.
@@ -469,27 +477,6 @@ fn outer_timed<'a>(block: &'a Block, found: &mut Vec<&'a Timed>) {
             StmtKind::Timed(timed) => found.push(timed),
             _ => stmt.blocks().into_iter().for_each(|block| outer_timed(block, found)),
         }
-    }
-}
-
-/// The steps of an operation itself.
-fn weight(op: Builtin, operands: &[Expr]) -> u64 {
-    match op {
-        Builtin::Top | Builtin::Spread => 1 + capacity(operands.first().map(|e| &e.ty)),
-        // Each edge is held against each corner.
-        Builtin::Polygon => 1 + CORNERS * CORNERS,
-        // Outside, the edges are looked at twice.
-        Builtin::Gap => 1 + 2 * CORNERS,
-        Builtin::Center | Builtin::Corner | Builtin::NearestEdge | Builtin::Exit | Builtin::Run => 1 + CORNERS,
-        _ => 1,
-    }
-}
-
-/// How many a list holds at most.
-fn capacity(ty: Option<&Type>) -> u64 {
-    match ty {
-        Some(Type::List(_, capacity) | Type::Map(_, capacity)) => u64::from(*capacity),
-        _ => 0,
     }
 }
 

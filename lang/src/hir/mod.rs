@@ -306,12 +306,14 @@ pub enum Builtin {
     LineVector,
     Rectangle,
     Polygon,
+    Hull,
     Center,
     Gap,
     /// An area, a heading, a point: its centre when none is given.
     Corner,
     NearestEdge,
     EdgeGap,
+    EdgeDistance,
     EdgeTangent,
     Exit,
     /// From a point to where a ray from it leaves the area.

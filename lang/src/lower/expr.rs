@@ -278,9 +278,12 @@ impl<'a> Lowering<'a> {
             B::Pair | B::Line | B::Add | B::Sub | B::Mul | B::Div | B::AddInt | B::SubInt | B::MulInt => return,
             B::Pow | B::Min | B::Max | B::Neg | B::Abs | B::Sqrt | B::Floor | B::Ceil | B::Round => return,
             B::Exp | B::Ln | B::Atan2 | B::Sin | B::Cos | B::Heading | B::Angle => return,
-            B::Rectangle => AreaOp::Rectangle { to, center: a, along: b, length: c, width: d }.into(),
-            B::Polygon => AreaOp::Polygon { to: to + 1, points: a, ok: to }.into(),
+            B::Rectangle => {
+                AreaOp::Rectangle { to, room: self.types.area_room, center: a, along: b, length: c, width: d }.into()
+            }
+            B::Polygon => AreaOp::Polygon { to: to + 1, room: self.types.area_room, points: a, ok: to }.into(),
             B::LineVector => Compute::SubVector { to, a: a + 2, b: a }.into(),
+            B::Hull => AreaOp::Hull { to, room: self.types.area_room, area: a }.into(),
             B::Center => AreaOp::Center { to, area: a }.into(),
             B::Gap => AreaOp::Gap { to, area: a, point: b }.into(),
             B::Corner => {
@@ -289,6 +292,7 @@ impl<'a> Lowering<'a> {
             }
             B::NearestEdge => AreaOp::NearestEdge { to, area: a, point: b }.into(),
             B::EdgeGap => Compute::EdgeGap { to, edge: a, point: b }.into(),
+            B::EdgeDistance => AreaOp::EdgeDistance { to, edge: a, point: b }.into(),
             B::EdgeTangent => AreaOp::EdgeTangent { to, edge: a, heading: b }.into(),
             B::Exit => AreaOp::Exit { to, area: a, point: b, heading: c }.into(),
             B::Run => self.run(to, a, b, c),

@@ -6,7 +6,7 @@ use crate::hir::{self, Block, Expr};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
 use albacore_arithmetic::Operator;
-use albacore_program::{AreaOp, Compute, GRID_WORDS, ListOp, MapOp, ROWS_WORDS, Rounds, Slot, When};
+use albacore_program::{AreaOp, Compute, GRID_WORDS, ListOp, MapOp, ROW_PLACE_WORDS, ROWS_WORDS, Rounds, Slot, When};
 
 impl<'a> Lowering<'a> {
     pub(super) fn for_range(&mut self, var: usize, first: &Expr, last: &Expr, inclusive: bool, body: &Block) {
@@ -97,23 +97,20 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// What all rows have in common is computed at the start, each row when its turn comes: there are none left when there is none
-    /// of the next index.
+    /// What all rows have in common is computed at the start, each row when its turn comes, until there are none left.
     pub(super) fn for_rows(&mut self, var: usize, area: &Expr, (step, near): (&Expr, &Expr), body: &Block) {
         let area = self.walked_area(area);
-        let (rows, counter) = (self.lasting(ROWS_WORDS), self.lasting(1));
+        let (rows, place, counter) = (self.lasting(ROWS_WORDS), self.lasting(ROW_PLACE_WORDS), self.lasting(1));
         self.scratch(|l| {
             let (step, near) = (l.expr(step), l.expr(near));
             l.emit(AreaOp::Rows { to: rows, area, step, near });
         });
+        self.emit(Compute::Clear { to: place, words: ROW_PLACE_WORDS });
         self.emit(Compute::Const { to: counter, value: 0.0 });
         let top = self.here();
         let to = self.frame.vars[var];
-        let done = self.scratch(|l| {
-            let there = l.temp(1);
-            l.emit(AreaOp::RowAt { to, there, rows, area, index: counter });
-            l.emit(Compute::jump_unless(there, 0))
-        });
+        self.emit(AreaOp::RowAt { to, place, rows, area, index: counter });
+        let done = self.emit(Compute::jump_unless(place, 0));
         self.walking(var, Rounds::Behind(counter, rows), body);
         self.count_up(counter);
         self.emit(Compute::jump(top));

@@ -335,7 +335,7 @@ impl<'h> Fixed<'h> {
                 // Where they begin changes their order and their direction alone.
                 let rows = |area: &Area| {
                     let across = Rows::across(area.edges(), step, area.center());
-                    (0..VALUES_MAX as u32).map_while(|n| across?.nth(area.edges(), n)).collect()
+                    across.into_iter().flat_map(|rows| rows.rows(area.edges())).take(VALUES_MAX).collect()
                 };
                 lines(self.values(unit, area), &rows)
             }

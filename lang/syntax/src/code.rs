@@ -43,6 +43,7 @@ codes! {
         AbsentUsed = "used",
     }
     areas {
+        AreasCrossed = "crossed",
         AreasFile = "file",
         AreasGoal = "goal",
         AreasLarge = "large",

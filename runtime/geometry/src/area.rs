@@ -1,12 +1,13 @@
-//! An operating area: a convex polygon, its edges, and how far a point is from leaving it.
+//! An operating area: a polygon whose outline does not meet itself, its edges, and how far a point is from leaving it.
 
 use crate::heading::Heading;
 use crate::math::PI;
+use crate::outline;
 use crate::plane::{Line, Point, Vector};
 use serde::{Deserialize, Serialize};
 
 /// An area has at most this many corners.
-pub const AREA_CORNERS_MAX: usize = 16;
+pub const AREA_CORNERS_MAX: usize = 1024;
 
 /// No corner of an operating area is farther from its middle than this, m. A flat plane cannot do better: at this distance the scale
 /// of the local frame is wrong by 123 mm in a kilometre.
@@ -20,18 +21,18 @@ pub const PLACE_MAX_M: f64 = 1e8;
 
 /// What is no farther from an edge than this, m, lies on it. It is more than rounding moves a computed point, even [`PLACE_MAX_M`] out,
 /// and less than anyone knows a place to.
-const ON_EDGE_M: f64 = 1e-6;
+pub(crate) const ON_EDGE_M: f64 = 1e-6;
 
 /// A ray that goes out by no more than this, m, on the length of an edge goes along it.
 const ALONG_EDGE_M: f64 = 1e-7;
 
-/// Corners closer together than this, in metres, are one corner.
-const CORNER_SEPARATION_M: f64 = 1e-3;
+/// Corners closer together than this, in metres, are one corner, and edges that come so near to one another meet.
+pub(crate) const SEPARATION_M: f64 = 1e-3;
 
 /// Corners whose coordinates along a direction differ by less than this, in metres, are equally far.
 const EQUALLY_FAR_M: f64 = 1.0;
 
-/// A convex polygon in the tangent plane, its corners clockwise seen from above.
+/// A polygon in the tangent plane, its corners clockwise seen from above. It may have dents, and its outline does not meet itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Corners")]
 pub struct Area {
@@ -68,8 +69,8 @@ pub enum AreaError {
     TooFewCorners,
     /// More than [`AREA_CORNERS_MAX`] corners.
     TooManyCorners,
-    /// The polygon has a dent or crosses itself.
-    NotConvex,
+    /// The edges from these two corners on, counted from 0 as they were given, meet.
+    Crossed(usize, usize),
     /// It is so wide where it is thinnest, m: less than [`AREA_WIDTH_MIN_M`].
     TooThin(f64),
     /// A coordinate is not a number, or more than twice [`PLACE_MAX_M`].
@@ -81,7 +82,9 @@ impl std::fmt::Display for AreaError {
         match self {
             AreaError::TooFewCorners => write!(f, "an area needs at least three distinct corners"),
             AreaError::TooManyCorners => write!(f, "an area has at most {AREA_CORNERS_MAX} corners"),
-            AreaError::NotConvex => write!(f, "the corners do not make a convex polygon"),
+            AreaError::Crossed(a, b) => {
+                write!(f, "its outline crosses itself, after corners {} and {}", a + 1, b + 1)
+            }
             AreaError::TooThin(width) => {
                 write!(
                     f,
@@ -107,23 +110,44 @@ pub fn farthest_corner(corners: &[Point], heading: Heading, near: Point) -> Poin
     best.unwrap_or(near)
 }
 
-/// Metres from a point to the nearest edge of an area, positive inside and negative outside. Outside a corner that is farther than
-/// any line through an edge.
+/// Metres from a point to the nearest edge of an area, positive inside and negative outside.
 pub fn gap(edges: impl Iterator<Item = Edge> + Clone, p: Point) -> f64 {
-    let inside = edges.clone().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min);
-    match inside < 0.0 {
-        true => -edges.filter(|edge| edge.gap(p) < 0.0).map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min),
-        false => inside,
+    let away = edges.clone().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+    match away {
+        _ if away < ON_EDGE_M => 0.0,
+        _ if outline::goes_round(edges, p) => away,
+        _ => -away,
     }
 }
 
-/// The edge of an area that is nearest to a point; outside a corner, of its two the one whose line is farther off. Of equals the first.
+/// The edge of an area that is nearest to a point; beyond a corner, of its two the one whose line is farther off. Of equals the first.
 pub fn nearest_edge(edges: impl Iterator<Item = Edge>, p: Point) -> Option<Edge> {
-    let away = |edge: &Edge| (edge.distance(p), edge.gap(p));
+    let away = |edge: &Edge| (edge.distance(p), -edge.gap(p).abs());
     edges
         .map(|edge| (away(&edge), edge))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
         .map(|(_, edge)| edge)
+}
+
+/// How far a ray goes from a point inside an area, m, until it leaves; 0 from outside, and where nothing tells.
+pub fn run(edges: impl Iterator<Item = Edge> + Clone, from: Point, ray: Vector) -> f64 {
+    if gap(edges.clone(), from) < 0.0 {
+        return 0.0;
+    }
+    let next = edges.clone().skip(1).chain(edges.clone().take(1));
+    let runs =
+        edges.zip(next).filter_map(|(edge, next)| match (edge.run(from, ray), edge.run_to_corner(next, from, ray)) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        });
+    let run = runs.fold(f64::INFINITY, f64::min);
+    if run.is_finite() { run } else { 0.0 }
+}
+
+/// Whether an area has no dents: no edge leads out over the line of the one before.
+pub fn is_convex(edges: impl Iterator<Item = Edge> + Clone) -> bool {
+    let next = edges.clone().skip(1).chain(edges.clone().take(1));
+    edges.zip(next).all(|(edge, next)| edge.gap(next.line.end) >= 0.0)
 }
 
 impl Edge {
@@ -146,10 +170,45 @@ impl Edge {
         }
     }
 
-    /// How far a ray goes from a point inside the area, m, until it leaves over this edge; none where it goes inward or along.
-    pub fn run(self, from: Point, ray: Vector) -> Option<f64> {
-        let outward = ray.dot(self.normal);
-        (outward * self.line.length() > ALONG_EDGE_M).then(|| self.exact_gap(from).max(0.0) / outward)
+    /// The place of the edge that is nearest to a point.
+    pub fn nearest(self, p: Point) -> Point {
+        let (side, there) = (self.line.end - self.line.start, p - self.line.start);
+        let along = there.dot(side);
+        if along < 0.0 {
+            self.line.start
+        } else if along > side.dot(side) {
+            self.line.end
+        } else {
+            p + self.gap(p) * self.normal
+        }
+    }
+
+    /// How far a ray goes from a point inside the area, m, until it leaves over this edge, between its corners.
+    fn run(self, from: Point, ray: Vector) -> Option<f64> {
+        if !self.is_left_by(ray) || self.gap(from) < 0.0 {
+            return None;
+        }
+        let run = self.exact_gap(from).max(0.0) / ray.dot(self.normal);
+        let along = (from + run * ray - self.line.start).dot(self.line.heading().unit());
+        (along > ON_EDGE_M && along < self.line.length() - ON_EDGE_M).then_some(run)
+    }
+
+    /// How far a ray goes until it leaves at the corner between this edge and the next; past a dent it goes on inside.
+    fn run_to_corner(self, next: Edge, from: Point, ray: Vector) -> Option<f64> {
+        let there = self.line.end - from;
+        let (run, beside) = (there.dot(ray), there.dot(Vector::new(-ray.east, ray.north)));
+        if run < -ON_EDGE_M || beside.abs() > ON_EDGE_M {
+            return None;
+        }
+        let (this, next_too) = (self.is_left_by(ray), next.is_left_by(ray));
+        let is_dent = self.gap(next.line.end) < 0.0;
+        let leaves = if is_dent { this && next_too } else { this || next_too };
+        leaves.then_some(run.max(0.0))
+    }
+
+    /// Whether a ray goes outward over its line, and not along it.
+    fn is_left_by(self, ray: Vector) -> bool {
+        ray.dot(self.normal) * self.line.length() > ALONG_EDGE_M
     }
 
     fn exact_gap(self, p: Point) -> f64 {
@@ -164,7 +223,7 @@ impl Edge {
 }
 
 impl Area {
-    /// The convex polygon with these corners, given either way round.
+    /// The polygon with these corners, given either way round.
     pub fn polygon(corners: &[Point]) -> Result<Self, AreaError> {
         let is_near = |x: f64| x.abs() <= 2.0 * PLACE_MAX_M;
         if !corners.iter().all(|c| is_near(c.north) && is_near(c.east)) {
@@ -177,25 +236,22 @@ impl Area {
             return Err(AreaError::TooManyCorners);
         }
         let n = corners.len();
-        let side = |i: usize| corners[(i + 1) % n] - corners[i];
-        if (0..n).any(|i| side(i).length() < CORNER_SEPARATION_M) {
+        if (0..n).any(|i| corners[i].distance(corners[(i + 1) % n]) < SEPARATION_M) {
             return Err(AreaError::TooFewCorners);
         }
-        let turned: f64 = (0..n).map(|i| side((i + 1) % n).toward() - side(i).toward()).sum();
+        // A rectangle of that width is none the less an area for being turned.
+        let width = outline::width(corners);
+        if width < AREA_WIDTH_MIN_M - ON_EDGE_M {
+            return Err(AreaError::TooThin(width));
+        }
+        if let Some((a, b)) = outline::meeting(corners) {
+            return Err(AreaError::Crossed(a, b));
+        }
         let mut area = Area { corners: corners.to_vec() };
-        if turned < 0.0 {
+        if outline::surface(corners) < 0.0 {
             area.corners.reverse();
         }
-        // Convex: no corner lies beyond an edge, and the sides turn once in all (those of a triangle gone round twice do twice).
-        let has_dent = area.edges().any(|edge| area.corners.iter().any(|&corner| edge.gap(corner) < 0.0));
-        if has_dent || (turned.abs() - 2.0 * PI).abs() > 1e-6 {
-            return Err(AreaError::NotConvex);
-        }
-        match area.width() {
-            // A rectangle of that width is none the less an area for being turned.
-            width if width < AREA_WIDTH_MIN_M - ON_EDGE_M => Err(AreaError::TooThin(width)),
-            _ => Ok(area),
-        }
+        Ok(area)
     }
 
     /// The rectangle of a given length along a direction and width across it, in metres. There is always one: a side shorter than
@@ -242,10 +298,24 @@ impl Area {
         self.corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max)
     }
 
+    /// Whether a point lies inside or on an edge.
+    pub fn contains(&self, p: Point) -> bool {
+        self.gap(p) >= 0.0
+    }
+
     /// How thin it is where it is thinnest, m: the least distance of two parallels between which it lies.
     pub fn width(&self) -> f64 {
-        let across = |edge: Edge| self.corners.iter().map(|&c| edge.gap(c)).fold(0.0, f64::max);
-        self.edges().map(across).fold(f64::INFINITY, f64::min)
+        outline::width(&self.corners)
+    }
+
+    /// The least area without dents that holds it: itself, if it has none.
+    pub fn hull(&self) -> Area {
+        if is_convex(self.edges()) { self.clone() } else { Area::around(&self.corners) }
+    }
+
+    /// The least area without dents that holds the corners of one that has some.
+    pub fn around(corners: &[Point]) -> Area {
+        Area { corners: outline::hull(corners) }
     }
 
     /// How far another area is from this one, m; 0 where they meet.
@@ -258,12 +328,26 @@ impl Area {
         from_corners(self, other).min(from_corners(other, self)).max(0.0)
     }
 
-    /// Whether two areas have more than edges in common. Of convex polygons that have not, one lies wholly beyond an edge of the
-    /// other (the theorem of the separating axis).
+    /// Whether two areas have more than edges in common: then an edge of one passes through the inside of the other, or one holds
+    /// a point that lies inside the other.
     pub fn overlaps(&self, other: &Area) -> bool {
-        let beyond_an_edge =
-            |of: &Area, area: &Area| of.edges().any(|edge| area.corners.iter().all(|&c| edge.gap(c) <= 0.0));
-        !beyond_an_edge(self, other) && !beyond_an_edge(other, self)
+        let passes = |of: &Area, area: &Area| {
+            of.edges().any(|edge| outline::stretches(edge.line, area.edges()).any(|middle| area.gap(middle) > 0.0))
+        };
+        let holds = |of: &Area, area: &Area| of.gap(area.inner_point()) > 0.0;
+        passes(self, other) || passes(other, self) || holds(self, other) || holds(other, self)
+    }
+
+    /// A point inside: the middle of the longest stretch of the line through it that is half way between the two southernmost
+    /// corners that are not equally far south.
+    fn inner_point(&self) -> Point {
+        let south = self.corners.iter().map(|c| c.north).fold(f64::INFINITY, f64::min);
+        let others = self.corners.iter().map(|c| c.north).filter(|north| *north > south + ON_EDGE_M);
+        let middle = 0.5 * (south + others.fold(f64::INFINITY, f64::min));
+        let through = Point::new(middle, self.corners[0].east);
+        let chords = outline::chords(self.edges(), Vector::new(0.0, 1.0), through, |p| p.north > middle);
+        let longest = chords.into_iter().max_by(|a, b| a.length().total_cmp(&b.length()));
+        longest.map_or(self.corners[0], |line| line.start + 0.5 * (line.end - line.start))
     }
 }
 
@@ -311,17 +395,22 @@ mod tests {
     }
 
     #[test]
-    fn dents_stars_and_slivers_are_refused() {
+    fn stars_and_slivers_are_refused_and_dents_are_not() {
         let p = Point::new;
         let dent = [p(0.0, 0.0), p(10.0, 0.0), p(3.0, 3.0), p(0.0, 10.0)];
-        assert_eq!(Area::polygon(&dent), Err(AreaError::NotConvex));
+        assert!(!is_convex(Area::polygon(&dent).unwrap().edges()));
         let star = [p(10.0, 0.0), p(-8.0, 6.0), p(3.0, -9.5), p(3.0, 9.5), p(-8.0, -6.0)];
-        assert_eq!(Area::polygon(&star), Err(AreaError::NotConvex));
+        assert_eq!(Area::polygon(&star), Err(AreaError::Crossed(0, 2)));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFewCorners));
         assert_eq!(Area::polygon(&[p(0.0, f64::NAN), p(0.0, 0.0), p(1.0, 0.0)]), Err(AreaError::TooFar));
         assert_eq!(Area::polygon(&[p(0.0, 0.0), p(0.0, 9.0), p(0.0, 18.0)]), Err(AreaError::TooThin(0.0)));
-        assert_eq!(Area::polygon(&[p(0.0, 0.0), p(1e-9, 9.0), p(0.0, 18.0)]), Err(AreaError::TooThin(0.0)));
+        let bent = Area::polygon(&[p(0.0, 0.0), p(1e-9, 9.0), p(0.0, 18.0)]);
+        assert!(matches!(bent, Err(AreaError::TooThin(width)) if width < 1e-8), "{bent:?}");
+        let spike = [p(0.0, 0.0), p(0.0, 9.0), p(9.0, 9.0), p(20.0, 9.0), p(9.0, 9.0005), p(9.0, 0.0)];
+        assert_eq!(Area::polygon(&spike), Err(AreaError::TooFewCorners).or(Err(AreaError::Crossed(1, 3))));
+        let pinched = [p(0.0, 0.0), p(9.0, 9.0), p(9.0, 0.0), p(0.0, 9.0), p(-9.0, 9.0), p(-9.0, 0.0)];
+        assert_eq!(Area::polygon(&pinched), Err(AreaError::Crossed(0, 2)));
         let sliver = Area::polygon(&[p(0.0, 0.0), p(0.0, 100.0), p(0.5, 50.0)]);
         assert!(matches!(sliver, Err(AreaError::TooThin(width)) if (width - 0.5).abs() < 1e-4), "{sliver:?}");
         let thinnest = Area::rectangle(p(1e6, -1e6), Heading::from_degrees(33.0), AREA_WIDTH_MIN_M, 1e5);

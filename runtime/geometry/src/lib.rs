@@ -11,12 +11,13 @@ mod grid;
 mod heading;
 pub mod math;
 mod mercator;
+mod outline;
 mod plane;
 mod rows;
 
 pub use area::{
     AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner, gap,
-    nearest_edge,
+    is_convex, nearest_edge, run,
 };
 pub use ellipsoid::metres_per_radian;
 pub use geodetic::{Geodetic, TangentFrame};
@@ -24,4 +25,4 @@ pub use globe::{goes_round_a_pole, longitude_beside, longitude_within};
 pub use grid::Grid;
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
-pub use rows::{ROWS_MAX, Rows};
+pub use rows::{Place, ROWS_MAX, Rows};

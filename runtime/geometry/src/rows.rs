@@ -1,6 +1,7 @@
 //! The lines of a lawn-mower across an area.
 
 use crate::area::Edge;
+use crate::outline::chords;
 use crate::plane::{Line, Point, Vector};
 
 /// An area is mown in at most this many rows. Where `step` asks for more they lie farther apart.
@@ -15,28 +16,40 @@ const NEARER_M: f64 = 1e-3;
 /// A width that is a hair more than a whole number of steps is rounding, and no reason for one more row.
 const ROUNDING: f64 = 1e-9;
 
-/// The rows across a convex area that is given by its edges, clockwise: what of them does not change from one to the next.
+/// The rows across an area that is given by its edges, clockwise: what of them does not change from one to the next.
 ///
-/// Rows lie along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
-/// from the area's sides. They begin at the end of an outermost row that is nearest to `near`, of several the first of these:
+/// Rows lie on lines along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
+/// from the area's sides. A line that leaves the area and comes back has a row for each piece that lies inside, driven one after
+/// the other. Rows begin at the end of an outermost row that is nearest to `near`, of several the first of these:
 /// start and end of the row beside that edge, driven as the edge goes, clockwise round the area; start and end of the row
 /// opposite, driven the same way. Each next one is driven the other way. So the rows are a function of area, step and `near`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rows {
-    /// The start of the longest edge.
+    /// A point on the line along the longest edge beyond which nothing of the area lies: the start of that edge, if it has no dents.
     pub start: Point,
     /// Outward over that edge, of length 1.
     pub outward: Vector,
     /// Along that edge, of length 1.
     pub ray: Vector,
-    /// Metres from one row to the next.
+    /// Metres from one line to the next.
     pub apart: f64,
-    /// How many there are.
+    /// How many rows there are.
     pub count: u32,
-    /// Whether the first is the one opposite the longest edge.
+    /// And on how many lines.
+    pub lines: u32,
+    /// Whether the first line is the one opposite the longest edge.
     pub is_opposite: bool,
     /// Whether the first is driven against the longest edge.
     pub is_backward: bool,
+}
+
+/// Where a row is: on which line from the first on, and as which of that line's pieces, in the order in which they are driven.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The line.
+    pub line: u32,
+    /// The piece.
+    pub piece: u32,
 }
 
 impl Rows {
@@ -49,40 +62,101 @@ impl Rows {
                 longest = edge;
             }
         }
-        let width = edges.clone().map(|edge| longest.gap(edge.line.start)).fold(0.0, f64::max);
-        // Written so that a step that is no number, or not above 0, gives as many as may be.
-        let wanted = (width / step - ROUNDING).ceil();
-        let most = f64::from(ROWS_MAX);
-        let count = if step > 0.0 && wanted <= most { wanted.max(1.0) } else { most };
-        let (start, outward, ray) = (longest.line.start, longest.normal, longest.line.heading().unit());
-        let (apart, count) = (width / count, count as u32);
-        let rows = Rows { start, outward, ray, apart, count, is_opposite: false, is_backward: false };
-        Some(rows.beginning_nearest(edges, near))
+        let inward = edges.clone().map(|edge| longest.gap(edge.line.start));
+        let (least, most) = inward.fold((0.0, 0.0), |(least, most): (f64, f64), off| (least.min(off), most.max(off)));
+        let (outward, ray) = (longest.normal, longest.line.heading().unit());
+        let (start, width) = (longest.line.start - least * outward, most - least);
+        let mut rows = Rows {
+            start,
+            outward,
+            ray,
+            apart: width,
+            count: 1,
+            lines: lines_of(width, step),
+            is_opposite: false,
+            is_backward: false,
+        };
+        // With half the lines an area has fewer rows, and on a single line fewer than it has edges.
+        loop {
+            rows.apart = width / f64::from(rows.lines);
+            rows.count = rows.pieces(edges.clone()).iter().sum();
+            if rows.count <= ROWS_MAX || rows.lines == 1 {
+                return Some(rows.beginning_nearest(edges, near));
+            }
+            rows.lines = rows.lines.div_ceil(2);
+        }
     }
 
-    /// The row of an index, across the same edges; none beyond the last.
-    pub fn nth(&self, edges: impl Iterator<Item = Edge>, index: u32) -> Option<Line> {
-        let beside = if self.is_opposite { self.count.checked_sub(index.checked_add(1)?)? } else { index };
-        let line = self.along(edges, beside)?;
-        let turns = self.is_backward == index.is_multiple_of(2);
-        Some(if turns { Line { start: line.end, end: line.start } } else { line })
-    }
-
-    /// The row of an index counted from the longest edge, driven as that goes.
-    fn along(&self, edges: impl Iterator<Item = Edge>, index: u32) -> Option<Line> {
-        if index >= self.count {
+    /// The row at a place, across the same edges, and the place of the next; none beyond the last.
+    pub fn row_at(&self, edges: impl Iterator<Item = Edge>, place: Place) -> Option<(Line, Place)> {
+        if place.line >= self.lines {
             return None;
         }
-        let inward = (f64::from(index) + 0.5) * self.apart;
-        chord(edges, self.ray, self.start - inward * self.outward)
+        let line = if self.is_opposite { self.lines - 1 - place.line } else { place.line };
+        let mut pieces = self.along(edges, line);
+        if self.is_backward == place.line.is_multiple_of(2) {
+            pieces.reverse();
+            pieces.iter_mut().for_each(|piece| *piece = Line { start: piece.end, end: piece.start });
+        }
+        let next = if (place.piece as usize) + 1 < pieces.len() {
+            Place { piece: place.piece + 1, ..place }
+        } else {
+            Place { line: place.line + 1, piece: 0 }
+        };
+        pieces.get(place.piece as usize).map(|row| (*row, next))
+    }
+
+    /// All rows across the same edges, from the first on.
+    pub fn rows(self, edges: impl Iterator<Item = Edge> + Clone) -> impl Iterator<Item = Line> {
+        let mut place = Place::default();
+        std::iter::from_fn(move || {
+            let (row, next) = self.row_at(edges.clone(), place)?;
+            place = next;
+            Some(row)
+        })
+    }
+
+    /// Metres from the line at the start to the line of an index.
+    fn inward(&self, line: u32) -> f64 {
+        (f64::from(line) + 0.5) * self.apart
+    }
+
+    fn is_beyond(&self, p: Point, inward: f64) -> bool {
+        (self.start - p).dot(self.outward) > inward
+    }
+
+    /// How many pieces of each line lie inside, counted from the longest edge's side: half as often as it is crossed.
+    fn pieces(&self, edges: impl Iterator<Item = Edge>) -> Vec<u32> {
+        let inward: Vec<f64> = (0..self.lines).map(|line| self.inward(line)).collect();
+        // At each line: how many more edges cross it than the one before.
+        let mut more = vec![0i32; inward.len() + 1];
+        for Edge { line, .. } in edges {
+            let before = |p: Point| inward.partition_point(|inward| self.is_beyond(p, *inward));
+            let (a, b) = (before(line.start), before(line.end));
+            more[a.min(b)] += 1;
+            more[a.max(b)] -= 1;
+        }
+        let mut crossed = 0;
+        let pieces = more.iter().take(inward.len()).map(|more| {
+            crossed += more;
+            crossed.unsigned_abs() / 2
+        });
+        pieces.collect()
+    }
+
+    /// The pieces of the line of an index counted from the longest edge's side, driven as that edge goes.
+    fn along(&self, edges: impl Iterator<Item = Edge>, line: u32) -> Vec<Line> {
+        let inward = self.inward(line);
+        chords(edges, self.ray, self.start - inward * self.outward, |p| self.is_beyond(p, inward))
     }
 
     fn beginning_nearest(self, edges: impl Iterator<Item = Edge> + Clone, near: Point) -> Self {
         let mut first = self;
         let mut nearest = f64::INFINITY;
         for is_opposite in [false, true] {
-            let Some(line) = self.along(edges.clone(), if is_opposite { self.count - 1 } else { 0 }) else { continue };
-            for (is_backward, end) in [(false, line.start), (true, line.end)] {
+            let pieces = self.along(edges.clone(), if is_opposite { self.lines - 1 } else { 0 });
+            let (Some(front), Some(back)) = (pieces.first(), pieces.last()) else { continue };
+            for (is_backward, end) in [(false, front.start), (true, back.end)] {
                 let away = near.distance(end);
                 if away < nearest - NEARER_M {
                     (nearest, first) = (away, Rows { is_opposite, is_backward, ..self });
@@ -93,18 +167,13 @@ impl Rows {
     }
 }
 
-/// What of the line through a point, along a ray, lies inside.
-fn chord(edges: impl Iterator<Item = Edge>, ray: Vector, through: Point) -> Option<Line> {
-    let (mut back, mut ahead) = (f64::NEG_INFINITY, f64::INFINITY);
-    for edge in edges {
-        let (gap, outward) = (edge.gap(through), ray.dot(edge.normal));
-        if outward > 0.0 {
-            ahead = ahead.min(gap / outward);
-        } else if outward < 0.0 {
-            back = back.max(gap / outward);
-        }
-    }
-    (back.is_finite() && back < ahead).then(|| Line { start: through + back * ray, end: through + ahead * ray })
+/// On how many lines rows lie that are at most so far apart.
+fn lines_of(width: f64, step: f64) -> u32 {
+    // Written so that a step that is no number, or not above 0, gives as many as may be.
+    let wanted = (width / step - ROUNDING).ceil();
+    let most = f64::from(ROWS_MAX);
+    let lines = if step > 0.0 && wanted <= most { wanted.max(1.0) } else { most };
+    lines as u32
 }
 
 #[cfg(test)]
@@ -113,8 +182,7 @@ mod tests {
     use crate::{Area, Heading};
 
     fn rows_near(area: &Area, step: f64, near: Point) -> Vec<Line> {
-        let rows = Rows::across(area.edges(), step, near).unwrap();
-        (0..).map_while(|i| rows.nth(area.edges(), i)).collect()
+        Rows::across(area.edges(), step, near).unwrap().rows(area.edges()).collect()
     }
 
     fn rows(area: &Area, step: f64) -> Vec<Line> {
@@ -188,6 +256,38 @@ mod tests {
         for row in &rows {
             assert!(area.gap(row.start).abs() < 1e-9 && area.gap(row.end).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn a_line_that_leaves_the_area_has_a_row_for_each_piece() {
+        let p = Point::new;
+        // A U, open to the north, 100 m deep: its longest edge is the southern one.
+        let corners = [
+            (0.0, 0.0),
+            (120.0, 0.0),
+            (120.0, 40.0),
+            (40.0, 40.0),
+            (40.0, 100.0),
+            (120.0, 100.0),
+            (120.0, 140.0),
+            (0.0, 140.0),
+        ];
+        let area = Area::polygon(&corners.map(|(north, east)| p(north, east))).unwrap();
+        let rows = rows_near(&area, 40.0, p(0.0, 0.0));
+        let places = [(20.0, 0.0), (20.0, 140.0), (60.0, 140.0), (60.0, 100.0), (60.0, 40.0), (60.0, 0.0)];
+        let last = [(100.0, 0.0), (100.0, 40.0), (100.0, 100.0), (100.0, 140.0)];
+        assert!(lead(&rows, &[&places[..], &last[..]].concat()), "{rows:?}");
+    }
+
+    #[test]
+    fn a_comb_has_no_more_rows_than_any_area() {
+        let tooth =
+            |i: u32| [(0.0, 0.0), (900.0, 0.5), (900.0, 1.5), (0.0, 2.0)].map(|(n, e)| (n, e + 4.0 * f64::from(i)));
+        let mut corners: Vec<Point> = (0..200).flat_map(tooth).map(|(n, e)| Point::new(n, e)).collect();
+        corners.extend([Point::new(-1.0, 800.0), Point::new(-1.0, -1000.0)]);
+        let area = Area::polygon(&corners).unwrap();
+        let rows = rows(&area, 1.0);
+        assert!(rows.len() > ROWS_MAX as usize / 4 && rows.len() <= ROWS_MAX as usize, "{}", rows.len());
     }
 
     #[test]

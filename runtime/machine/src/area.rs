@@ -3,8 +3,10 @@
 use crate::execute::truth;
 use crate::state::Run;
 use albacore_arithmetic::bounded;
-use albacore_geometry::{Area, Edge, Heading, Line, Point, Rows, Vector, farthest_corner, gap, nearest_edge};
-use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, ROWS_WORDS, Slot};
+use albacore_geometry::{
+    Area, Edge, Heading, Line, Place, Point, Rows, Vector, farthest_corner, gap, is_convex, nearest_edge, run,
+};
+use albacore_program::{AREA_CORNER_WORDS, ROWS_WORDS, Slot, area_words};
 
 impl Run {
     pub fn point(&self, at: Slot) -> Point {
@@ -34,8 +36,9 @@ impl Run {
         self.set_point(at + 2, line.end);
     }
 
-    pub fn set_area(&mut self, to: Slot, area: Option<&Area>) {
-        self.state.words[to as usize..(to + AREA_WORDS) as usize].fill(0.0);
+    /// Leaves the words empty where there is no area.
+    pub fn set_area(&mut self, to: Slot, room: u32, area: Option<&Area>) {
+        self.state.words[to as usize..(to + area_words(room)) as usize].fill(0.0);
         let Some(area) = area else { return };
         self.set(to, area.corners().len() as f64);
         for (i, edge) in area.edges().enumerate() {
@@ -70,7 +73,7 @@ impl Run {
 
     pub fn set_rows(&mut self, at: Slot, rows: Option<Rows>) {
         self.state.words[at as usize..(at + ROWS_WORDS) as usize].fill(0.0);
-        let Some(Rows { start, outward, ray, apart, count, is_opposite, is_backward }) = rows else { return };
+        let Some(Rows { start, outward, ray, apart, count, lines, is_opposite, is_backward }) = rows else { return };
         self.set(at, f64::from(count));
         self.set(at + 1, bounded(apart));
         self.set(at + 2, truth(is_opposite));
@@ -78,6 +81,7 @@ impl Run {
         self.set_point(at + 4, start);
         self.set_vector(at + 6, outward);
         self.set_vector(at + 8, ray);
+        self.set(at + 10, f64::from(lines));
     }
 
     fn rows(&self, at: Slot) -> Rows {
@@ -89,11 +93,19 @@ impl Run {
             start: self.point(at + 4),
             outward: self.vector(at + 6),
             ray: self.vector(at + 8),
+            lines: self.get(at + 10) as u32,
         }
     }
 
-    pub fn row_of(&self, rows: Slot, area: Slot, index: u32) -> Option<Line> {
-        self.rows(rows).nth(self.edges_of(area), index)
+    /// The row at a place, which becomes that of the next.
+    pub fn take_row(&mut self, to: Slot, place: Slot, rows: Slot, area: Slot) {
+        let here = Place { line: self.get(place + 1) as u32, piece: self.get(place + 2) as u32 };
+        let found = self.rows(rows).row_at(self.edges_of(area), here);
+        self.set(place, truth(found.is_some()));
+        let Some((row, next)) = found else { return };
+        self.set_line(to, row);
+        self.set(place + 1, f64::from(next.line));
+        self.set(place + 2, f64::from(next.piece));
     }
 
     pub fn edge(&self, at: Slot) -> Edge {
@@ -103,6 +115,11 @@ impl Run {
     pub fn set_edge(&mut self, at: Slot, edge: Edge) {
         self.set_line(at, edge.line);
         self.set_vector(at + 4, edge.normal);
+    }
+
+    /// How far a point is from the nearest place of an edge.
+    pub fn distance_of_edge(&self, edge: Slot, p: Point) -> f64 {
+        bounded(self.edge(edge).distance(p))
     }
 
     pub fn center(&self, area: Slot) -> Point {
@@ -121,20 +138,26 @@ impl Run {
 
     /// The corner that lies farthest along a heading; of those equally far the one nearest to a point.
     pub fn farthest_corner(&self, area: Slot, heading: Heading, near: Point) -> Point {
-        let corners: Vec<Point> = (0..self.corners(area)).map(|i| self.corner_point(area, i)).collect();
-        farthest_corner(&corners, heading, near)
+        farthest_corner(&self.corner_points(area), heading, near)
+    }
+
+    fn corner_points(&self, area: Slot) -> Vec<Point> {
+        (0..self.corners(area)).map(|i| self.corner_point(area, i)).collect()
+    }
+
+    /// The hull of an area, in other words.
+    pub fn set_hull(&mut self, to: Slot, room: u32, area: Slot) {
+        if is_convex(self.edges_of(area)) {
+            let area = area as usize;
+            self.state.words.copy_within(area..area + area_words(room) as usize, to as usize);
+        } else {
+            let hull = Area::around(&self.corner_points(area));
+            self.set_area(to, room, Some(&hull));
+        }
     }
 
     /// Where a ray from a point leaves the area; the point itself when it is outside.
     pub fn exit(&self, area: Slot, from: Point, heading: Heading) -> Point {
-        let ray = heading.unit();
-        let mut run = f64::INFINITY;
-        for edge in self.edges_of(area) {
-            if edge.gap(from) < 0.0 {
-                return from;
-            }
-            run = edge.run(from, ray).map_or(run, |of_edge| run.min(of_edge));
-        }
-        if run.is_finite() { from + run * ray } else { from }
+        from + run(self.edges_of(area), from, heading.unit()) * heading.unit()
     }
 }

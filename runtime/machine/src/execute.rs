@@ -143,18 +143,19 @@ impl Run {
     fn on_area(&mut self, op: AreaOp, base: Slot) {
         let b = |slot: Slot| place(slot, base);
         match op {
-            AreaOp::Rectangle { to, center, along, length, width } => {
+            AreaOp::Rectangle { to, room, center, along, length, width } => {
                 let (length, width) = (self.get(b(length)), self.get(b(width)));
                 let area = Area::rectangle(self.point(b(center)), self.heading_at(b(along)), length, width);
-                self.set_area(b(to), Some(&area));
+                self.set_area(b(to), room, Some(&area));
             }
-            AreaOp::Polygon { to, points, ok } => {
+            AreaOp::Polygon { to, room, points, ok } => {
                 let count = self.get(b(points)) as u32;
                 let corners: Vec<Point> = (0..count).map(|i| self.point(b(points) + 1 + 2 * i)).collect();
-                let area = Area::polygon(&corners).ok();
-                self.set_area(b(to), area.as_ref());
+                let area = Area::polygon(&corners).ok().filter(|_| count <= room);
+                self.set_area(b(to), room, area.as_ref());
                 self.set(b(ok), truth(area.is_some()));
             }
+            AreaOp::Hull { to, room, area } => self.set_hull(b(to), room, b(area)),
             AreaOp::Center { to, area } => self.set_point(b(to), self.center(b(area))),
             AreaOp::Gap { to, area, point } => self.set(b(to), self.gap(b(area), self.point(b(point)))),
             AreaOp::Corner { to, area, heading, near } => {
@@ -165,16 +166,14 @@ impl Run {
                 let rows = self.rows_across(b(area), self.get(b(step)), self.point(b(near)));
                 self.set_rows(b(to), rows);
             }
-            AreaOp::RowAt { to, there, rows, area, index } => {
-                let row = self.row_of(b(rows), b(area), self.get(b(index)) as u32);
-                self.set(b(there), truth(row.is_some()));
-                if let Some(row) = row {
-                    self.set_line(b(to), row);
-                }
-            }
+            AreaOp::RowAt { to, place, rows, area, .. } => self.take_row(b(to), b(place), b(rows), b(area)),
             AreaOp::NearestEdge { to, area, point } => {
                 let edge = self.nearest_edge(b(area), self.point(b(point)));
                 self.set_edge(b(to), edge);
+            }
+            AreaOp::EdgeDistance { to, edge, point } => {
+                let distance = self.distance_of_edge(b(edge), self.point(b(point)));
+                self.set(b(to), distance);
             }
             AreaOp::EdgeTangent { to, edge, heading } => {
                 let tangent = self.edge(b(edge)).tangent(self.heading_at(b(heading)));

@@ -26,7 +26,7 @@ pub use cause::{ANSWER_WORDS, Cause, OverrideEnd};
 pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
 pub use op::{AreaOp, Compute, ListOp, MapOp, Op, When};
 pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind, setpoints};
-pub use shape::{AREA_CORNER_WORDS, AREA_WORDS, Display, GRID_WORDS, ROWS_WORDS, Shape};
+pub use shape::{AREA_CORNER_WORDS, Display, GRID_WORDS, ROW_PLACE_WORDS, ROWS_WORDS, Shape, area_words};
 pub use slot::{ABSOLUTE, Addr, Slot};
 pub use statement::{Loop, ROUND_WORDS, Rounds, Statement, StatementPart};
 pub use verify::{Claim, Claims, Unit, Unsound};
@@ -38,7 +38,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 12;
+pub const PROGRAM_VERSION: u32 = 13;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -162,7 +162,7 @@ impl Printer<'_> {
                 with_unit(format!("({}, {})", part(0), part(1)), display)
             }
             Shape::Line | Shape::Edge => format!("{} to {}", place(0), place(2)),
-            Shape::Area => match index(first) {
+            Shape::Area(_) => match index(first) {
                 Some(corners) if words.len() > corners * AREA_CORNER_WORDS as usize => {
                     format!("area of {corners} corners")
                 }

@@ -29,8 +29,8 @@ pub enum Shape {
     Line,
     /// A line and its outward normal.
     Edge,
-    /// A count of corners, then for each corner its point and the outward normal of the edge that begins there.
-    Area,
+    /// A count of corners, then room for so many: for each its point and the outward normal of the edge that begins there.
+    Area(u32),
     /// Index into [`crate::Program::texts`].
     Text,
     /// The index of a variant.
@@ -59,12 +59,16 @@ pub struct Display {
 
 /// An area's words for each corner: its point and the outward normal of the edge that begins there.
 pub const AREA_CORNER_WORDS: u32 = 4;
-/// Words of an area.
-pub const AREA_WORDS: u32 = 1 + AREA_CORNER_WORDS * albacore_geometry::AREA_CORNERS_MAX as u32;
+/// Words of an area that has room for so many corners.
+pub const fn area_words(corners: u32) -> u32 {
+    1 + AREA_CORNER_WORDS * corners
+}
 /// Words of an edge.
 pub(crate) const EDGE_WORDS: u32 = 6;
 /// Words of the rows across an area: what of them does not change from one to the next.
-pub const ROWS_WORDS: u32 = 10;
+pub const ROWS_WORDS: u32 = 11;
+/// Words of a place among rows.
+pub const ROW_PLACE_WORDS: u32 = 3;
 /// Words of a map's grid: the list of its cells is behind them.
 pub const GRID_WORDS: u32 = 7;
 
@@ -140,7 +144,7 @@ impl Shape {
             Shape::Point | Shape::Vector(_) => 2,
             Shape::Line => 4,
             Shape::Edge => EDGE_WORDS,
-            Shape::Area => AREA_WORDS,
+            Shape::Area(corners) => area_words(*corners),
             Shape::Record(_, fields) => {
                 fields.iter().fold(0, |words: u32, (_, shape)| words.saturating_add(shape.words()))
             }

@@ -2,7 +2,7 @@
 
 use albacore_geometry::Point;
 use albacore_program::number::{angle, fixed, heading, metres, metres_per_second, point, seconds, value};
-use albacore_program::{AREA_WORDS, Display, Shape};
+use albacore_program::{Display, Shape, area_words};
 use std::f64::consts::PI;
 
 fn display(unit: &str, scale: f64, decimals: u8) -> Display {
@@ -66,9 +66,9 @@ fn each_shape_has_its_form() {
     check(Shape::Vector(display("m/s", 1.0, 2)), &[0.12, -0.03], "(0.12, -0.03) m/s");
     check(Shape::Line, &[1.0, 2.0, 3.0, 4.0], "(1.0, 2.0) m to (3.0, 4.0) m");
     check(Shape::Edge, &[1.0, 2.0, 3.0, 4.0, 0.0, 1.0], "(1.0, 2.0) m to (3.0, 4.0) m");
-    let mut area = [0.0; AREA_WORDS as usize];
+    let mut area = [0.0; area_words(16) as usize];
     area[0] = 4.0;
-    check(Shape::Area, &area, "area of 4 corners");
+    check(Shape::Area(16), &area, "area of 4 corners");
     check(Shape::Text, &[3.0], "text 3");
     check(Shape::Enum(["surface".into(), "dive".into()].into()), &[1.0], "dive");
     check(Shape::Optional(Box::new(Shape::Int)), &[0.0, 9.0], "none");
@@ -101,7 +101,7 @@ fn short_and_senseless_words_are_no_reason_to_fail() {
         (Shape::Int, "?"),
         (Shape::Quantity(display("s", 0.0, 1)), "? s"),
         (Shape::Line, "(?, ?) m to (?, ?) m"),
-        (Shape::Area, "?"),
+        (Shape::Area(16), "?"),
         (Shape::Text, "?"),
         (Shape::Optional(Box::new(Shape::Point)), "?"),
         (Shape::List(Box::new(inner.clone()), 4), "?"),

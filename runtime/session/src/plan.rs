@@ -159,9 +159,7 @@ impl Plan {
         let survey = Arc::clone(self.survey.as_ref()?);
         let Ground::Grid(grid) = &survey.ground else { return None };
         let area = grid.area()?;
-        Some(Arc::new(move |at, within| {
-            area.edges().all(|edge| edge.gap(at) >= 0.0).then(|| survey.shallowest_within(within, at))
-        }))
+        Some(Arc::new(move |at, within| area.contains(at).then(|| survey.shallowest_within(within, at))))
     }
 
     /// The same with faults added to those of the scenario.

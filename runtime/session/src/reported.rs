@@ -51,7 +51,7 @@ impl Reader<'_> {
                 json!({ "north": shown(word(0), display), "east": shown(word(1), display) })
             }
             Shape::Line | Shape::Edge => json!({ "start": place(0), "end": place(2) }),
-            Shape::Area => {
+            Shape::Area(_) => {
                 let corners = words.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
                 let corners = corners.take(word(0) as usize).map(|c| self.place(Point::new(c[0], c[1])));
                 json!({ "corners": corners.collect::<Vec<_>>() })

@@ -179,7 +179,7 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
         StmtKind::ForRows { var, area, step, near, body } => {
             let (area, step, near) = (value(w, s, area), number(w, s, step), value(w, s, near).point());
             let across = Rows::across(area.edges().iter().copied(), step, near);
-            let rows = (0..).map_while(|i| across?.nth(area.edges().iter().copied(), i));
+            let rows = across.into_iter().flat_map(|rows| rows.rows(area.edges().iter().copied()));
             (*var, rows.map(Value::of_line).collect(), body)
         }
         _ => return None,

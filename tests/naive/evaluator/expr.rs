@@ -4,7 +4,7 @@ use super::body;
 use super::value::Value;
 use super::watch::Watch;
 use super::world::World;
-use albacore_geometry::{Area, Edge, Grid, Heading, Point, Vector, math, wrap_angle};
+use albacore_geometry::{Area, Edge, Grid, Heading, Point, Vector, math, run, wrap_angle};
 use albacore_lang::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart, Var};
 use albacore_lang::types::Type;
 use albacore_program::{Shape, number};
@@ -240,6 +240,7 @@ fn of_area(op: Builtin, operands: &[Value]) -> Option<Value> {
             let area = Area::polygon(&corners).ok();
             Value::Maybe(area.map(|area| Box::new(Value::Area(area.edges().collect()))))
         }
+        B::Hull => Value::Area(hull(at(0).edges())),
         B::Center => Value::of_point(center(at(0).edges())),
         B::Corner => {
             let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
@@ -302,7 +303,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Dot => fits(at(0).vector().dot(at(1).vector())),
         B::Along => fits(at(0).vector().along(at(1).heading())),
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
-        B::Rectangle | B::Polygon | B::Center | B::Corner | B::NearestEdge | B::Exit | B::Run => {
+        B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::NearestEdge | B::Exit | B::Run => {
             unreachable!("`of_area` gives it")
         }
         B::LineVector => {
@@ -310,6 +311,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
             return fitting(line.end - line.start);
         }
         B::EdgeGap => fits(at(0).edge().gap(at(1).point())),
+        B::EdgeDistance => fits(at(0).edge().distance(at(1).point())),
         B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
         B::Gap => fits(gap(at(0).edges(), at(1).point())),
         B::Top => {
@@ -361,16 +363,36 @@ fn center(edges: &[Edge]) -> Point {
     Point::ORIGIN + (1.0 / edges.len().max(1) as f64) * sum
 }
 
+/// How often edges go round a point, seen from there.
+fn turns(edges: &[Edge], p: Point) -> f64 {
+    let seen = |to: Point| (to - p).toward().radians();
+    let turned: f64 = edges.iter().map(|edge| wrap_angle(seen(edge.line.end) - seen(edge.line.start))).sum();
+    (turned / math::TAU).round()
+}
+
 fn gap(edges: &[Edge], p: Point) -> f64 {
-    let outside = edges.iter().filter(|edge| edge.gap(p) < 0.0).map(|edge| edge.distance(p)).reduce(f64::min);
-    outside.map_or_else(|| edges.iter().map(|edge| edge.gap(p)).fold(f64::INFINITY, f64::min), |distance| -distance)
+    let distance = edges.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+    match distance {
+        _ if distance < 1e-6 => 0.0,
+        _ if turns(edges, p) == 0.0 => -distance,
+        _ => distance,
+    }
 }
 
 fn nearest_edge(edges: &[Edge], p: Point) -> Edge {
     let least = edges.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
     let nearest = edges.iter().filter(|edge| edge.distance(p) == least);
-    let nearer = |best: Edge, edge: &Edge| if edge.gap(p) < best.gap(p) { *edge } else { best };
-    nearest.fold(None, |best, edge| Some(best.map_or(*edge, |best| nearer(best, edge)))).unwrap_or(edges[0])
+    let farther_off = |best: Edge, edge: &Edge| if edge.gap(p).abs() > best.gap(p).abs() { *edge } else { best };
+    nearest.fold(None, |best, edge| Some(best.map_or(*edge, |best| farther_off(best, edge)))).unwrap_or(edges[0])
+}
+
+/// An area without dents is its own hull.
+fn hull(edges: &[Edge]) -> Vec<Edge> {
+    let corners: Vec<Point> = edges.iter().map(|edge| edge.line.start).collect();
+    if edges.iter().all(|edge| corners.iter().all(|corner| edge.gap(*corner) >= 0.0)) {
+        return edges.to_vec();
+    }
+    Area::around(&corners).edges().collect()
 }
 
 /// The corner farthest along a heading; of those equally far, to 1 m, the one nearest to a point.
@@ -384,11 +406,11 @@ fn corner(edges: &[Edge], heading: Heading, near: Point) -> Point {
 
 /// Where a ray leaves an area; the point itself when it is outside.
 fn exit(edges: &[Edge], from: Point, heading: Heading) -> Point {
-    if edges.iter().any(|edge| edge.gap(from) < 0.0) {
+    if gap(edges, from) < 0.0 {
         return from;
     }
-    let run = edges.iter().filter_map(|edge| edge.run(from, heading.unit())).fold(f64::INFINITY, f64::min);
-    if run.is_finite() { from + run * heading.unit() } else { from }
+    let ray = heading.unit();
+    from + run(edges.iter().copied(), from, ray) * ray
 }
 
 /// Named values as the trace has them, exactly.

@@ -1,7 +1,7 @@
 //! Values as a reader of the language would think of them.
 
 use albacore_geometry::{Edge, Grid, Heading, Line, Point, Vector};
-use albacore_program::{AREA_CORNER_WORDS, AREA_WORDS, Shape};
+use albacore_program::{AREA_CORNER_WORDS, Shape};
 
 /// A value. What is true or false, a variant and a direction are numbers too.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,9 +178,9 @@ impl Value {
                 let cells = words[8..].chunks(shape.words() as usize).take(words[7] as usize);
                 Value::Map(grid, cells.map(|words| Value::read(shape, words)).collect())
             }
-            Shape::Area => {
+            Shape::Area(_) => {
                 let corners: Vec<&[f64]> =
-                    words[1..AREA_WORDS as usize].chunks(AREA_CORNER_WORDS as usize).take(words[0] as usize).collect();
+                    words[1..].chunks(AREA_CORNER_WORDS as usize).take(words[0] as usize).collect();
                 let corner = |i: usize| Point::new(corners[i % corners.len()][0], corners[i % corners.len()][1]);
                 let edge = |i: usize| Edge {
                     line: Line { start: corner(i), end: corner(i + 1) },

@@ -1,4 +1,4 @@
-//! Whether the corners of a polygon make an area: on the globe, convex, not too many; what is wrong is told by the corner.
+//! Whether the corners of a polygon make an area: on the globe, once round, not too many; what is wrong is told by the corner.
 
 use super::{Position, fault};
 use crate::FileFault;
@@ -73,43 +73,32 @@ fn misshapen(corners: &[Position], what: &str) -> Option<FileFault> {
         let message = format!("corners {} and {} of {what} are in one place", i + 1, (i + 1) % n + 1);
         return Some(fault(message, "leave one of them out"));
     }
-    for i in 0..n {
-        // Sides that share a corner cannot cross.
-        if let Some(j) = (i + 2..n).find(|&j| (j + 1) % n != i && cross(&points, i, j)) {
-            let message = format!("the outline of {what} crosses itself, after corners {} and {}", i + 1, j + 1);
-            return Some(fault(message, "put its corners in their order round it"));
-        }
-    }
-    let turn = |i: usize| wedge(side((i + n - 1) % n), side(i));
-    let surface: f64 = (1..n - 1).map(|i| wedge(points[i] - points[0], points[i + 1] - points[0])).sum();
-    let longest = (0..n).map(|i| side(i).length()).fold(0.0, f64::max);
-    if surface.abs() < THICKNESS_M * longest {
-        return Some(fault(format!("the corners of {what} lie on one line"), "draw it as a polygon"));
-    }
-    let error = match Area::polygon(&points) {
+    match Area::polygon(&points) {
         Ok(area) if area.reach() > AREA_REACH_MAX_M => {
             let (far, most) = (distance(area.reach()), distance(AREA_REACH_MAX_M));
             let message =
                 format!("a corner of {what} lies {far} from its middle, and no plane reaches farther than {most}");
-            return Some(fault(
+            Some(fault(
                 message,
                 "look for a sign or a digit that is wrong in its corners, or cut it into smaller areas",
-            ));
+            ))
+        }
+        Err(AreaError::TooThin(width)) if width < THICKNESS_M => {
+            Some(fault(format!("the corners of {what} lie on one line"), "draw it as a polygon"))
         }
         Err(AreaError::TooThin(width)) => {
             let message = format!(
                 "{what} is {width:.2} m wide where it is thinnest, and no area is thinner than {AREA_WIDTH_MIN_M} m",
             );
-            return Some(fault(message, "look for corners that are nearly in one place or on one line"));
+            Some(fault(message, "look for corners that are nearly in one place or on one line"))
         }
-        Ok(_) => return None,
-        Err(error) => error,
-    };
-    let message = match (0..n).find(|&i| turn(i) * surface < 0.0) {
-        Some(i) => format!("{what} is not convex: it has a dent at corner {}", i + 1),
-        None => format!("{what} is no area: {error}"),
-    };
-    Some(fault(message, "leave out the corners of dents, or cut it into convex polygons, each with a name"))
+        Err(AreaError::Crossed(a, b)) => {
+            let message = format!("the outline of {what} crosses itself, after corners {} and {}", a + 1, b + 1);
+            Some(fault(message, "put its corners in their order round it"))
+        }
+        Ok(_) => None,
+        Err(error) => Some(fault(format!("{what} is no area: {error}"), "draw it as a polygon")),
+    }
 }
 
 /// The first corner of a hole that is neither within an outline nor on it. Between corners a side is straight in degrees.
@@ -130,15 +119,6 @@ pub(super) fn outside(hole: &[Position], outline: &[Position]) -> Option<usize> 
         to_the_north % 2 == 0 && !sides().any(|side| is_on(p, side))
     };
     hole.iter().position(|corner| is_outside(place(corner)))
-}
-
-/// Whether the sides after two corners cross.
-fn cross(points: &[Point], i: usize, j: usize) -> bool {
-    let (a, b) = (points[i], points[(i + 1) % points.len()]);
-    let (c, d) = (points[j], points[(j + 1) % points.len()]);
-    let sides =
-        |from: Point, to: Point, p: Point, q: Point| wedge(to - from, p - from) * wedge(to - from, q - from) < 0.0;
-    sides(a, b, c, d) && sides(c, d, a, b)
 }
 
 /// The area of the parallelogram of two vectors, positive if the second lies clockwise of the first.

@@ -7,19 +7,27 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the operands of each instruction are named by what they are")]
 pub enum AreaOp {
-    /// From a centre, the heading of the long side, length and width.
+    /// From a centre, the heading of the long side, length and width. `room`: for how many corners the area has, like any of its program.
     Rectangle {
         to: Slot,
+        room: u32,
         center: Slot,
         along: Slot,
         length: Slot,
         width: Slot,
     },
-    /// From a list of points; `ok` tells whether they make a convex polygon.
+    /// From a list of points; `ok` tells whether they make an area.
     Polygon {
         to: Slot,
+        room: u32,
         points: Slot,
         ok: Slot,
+    },
+    /// The least area without dents that holds one.
+    Hull {
+        to: Slot,
+        room: u32,
+        area: Slot,
     },
     Center {
         to: Slot,
@@ -45,13 +53,20 @@ pub enum AreaOp {
         step: Slot,
         near: Slot,
     },
-    /// The row of an index; `there` tells whether there is one.
+    /// The row of an index. Three words at `place` tell whether there is one, and on which line and as which of its pieces the next
+    /// is; all are 0 before the first.
     RowAt {
         to: Slot,
-        there: Slot,
+        place: Slot,
         rows: Slot,
         area: Slot,
         index: Slot,
+    },
+    /// Metres to the nearest place of an edge.
+    EdgeDistance {
+        to: Slot,
+        edge: Slot,
+        point: Slot,
     },
     NearestEdge {
         to: Slot,

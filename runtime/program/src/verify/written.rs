@@ -1,8 +1,8 @@
 //! Where code leads and what it writes.
 
 use crate::{
-    ANSWER_WORDS, AREA_WORDS, AreaOp, Compute, EDGE_WORDS, GRID_WORDS, GUIDANCE_WORDS, Guide, ListOp, MapOp, Op,
-    ROWS_WORDS, Slot, When,
+    ANSWER_WORDS, AreaOp, Compute, EDGE_WORDS, GRID_WORDS, GUIDANCE_WORDS, Guide, ListOp, MapOp, Op, ROW_PLACE_WORDS,
+    ROWS_WORDS, Slot, When, area_words,
 };
 
 /// Whether the next instruction may be executed after this one, in the same tick or a later one.
@@ -95,13 +95,13 @@ fn computed(op: Compute) -> Rows {
 
 fn of_area(op: AreaOp) -> Rows {
     match op {
-        AreaOp::Rectangle { to, .. } => one((to, AREA_WORDS)),
-        AreaOp::Polygon { to, ok, .. } => both((to, AREA_WORDS), (ok, 1)),
+        AreaOp::Rectangle { to, room, .. } | AreaOp::Hull { to, room, .. } => one((to, area_words(room))),
+        AreaOp::Polygon { to, room, ok, .. } => both((to, area_words(room)), (ok, 1)),
         AreaOp::Center { to, .. } | AreaOp::Corner { to, .. } | AreaOp::Exit { to, .. } => one((to, 2)),
         AreaOp::NearestEdge { to, .. } => one((to, EDGE_WORDS)),
         AreaOp::Rows { to, .. } => one((to, ROWS_WORDS)),
-        AreaOp::RowAt { to, there, .. } => both((to, 4), (there, 1)),
-        AreaOp::Gap { to, .. } | AreaOp::EdgeTangent { to, .. } => one((to, 1)),
+        AreaOp::RowAt { to, place, .. } => both((to, 4), (place, ROW_PLACE_WORDS)),
+        AreaOp::Gap { to, .. } | AreaOp::EdgeDistance { to, .. } | AreaOp::EdgeTangent { to, .. } => one((to, 1)),
     }
 }
 

@@ -7,7 +7,7 @@ use albacore_geometry::Point;
 use albacore_lang::hir::{Motion, OUTCOMES, ReportPart, When};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
-use albacore_program::{AREA_WORDS, ActivityId, Display, Shape, number};
+use albacore_program::{ActivityId, Display, Shape, number};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Truth, seconds};
 
@@ -42,7 +42,7 @@ impl<'t> Expectations<'t> {
             results: Results::new(plan, seed, Some(start)),
             evaluation,
             truth: Truth { position: start, ..Truth::default() },
-            area: vec![0.0; AREA_WORDS as usize],
+            area: Vec::new(),
             active: String::new(),
             looked: vec![false; test.expects.len()],
             breaches: vec![None; test.expects.len()],

@@ -10,7 +10,7 @@ use crate::scenario;
 use albacore_geometry::Point;
 use albacore_machine::{ControlRequest, Event, Machine, Outcome};
 use albacore_navigation::Trust;
-use albacore_program::AREA_WORDS;
+use albacore_program::area_words;
 use albacore_sim::Simulator;
 use albacore_trace::{Ending, Release, Step, TickRecord};
 use albacore_vehicle::VehicleError;
@@ -313,7 +313,9 @@ impl Driver {
     fn area(&self) -> Vec<f64> {
         let program = self.machine.program();
         let at = program.mission.area.map(|area| (program.mission.base + area) as usize);
-        let words = at.and_then(|at| self.machine.state().words.get(at..at + AREA_WORDS as usize));
-        words.filter(|words| words[0] > 0.0).map(<[f64]>::to_vec).unwrap_or_default()
+        let words = at.and_then(|at| self.machine.state().words.get(at..)).unwrap_or_default();
+        let corners = words.first().map_or(0, |corners| *corners as u32);
+        let words = words.get(..area_words(corners) as usize).filter(|_| corners > 0);
+        words.map(<[f64]>::to_vec).unwrap_or_default()
     }
 }

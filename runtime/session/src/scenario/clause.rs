@@ -210,7 +210,7 @@ impl<'a> Deserializer<'a> for Value<'a> {
                 visitor.visit_f64(self.word(0))
             }
             Shape::Point | Shape::Vector(_) => visitor.visit_map(Components { value: self, names: &["north", "east"] }),
-            Shape::Area => visitor.visit_map(Corners(Some(Items {
+            Shape::Area(_) => visitor.visit_map(Corners(Some(Items {
                 value: self.at(1),
                 left: count,
                 shape: &Shape::Point,

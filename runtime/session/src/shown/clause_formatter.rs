@@ -48,7 +48,7 @@ impl ClauseFormatter<'_> {
         match (shape, words) {
             (Shape::Vector(display), &[north, east]) => vector(display, Vector::new(north, east)),
             (Shape::Point, &[north, east]) => self.point(Point::new(north, east)),
-            (Shape::Area, [count, corners @ ..]) => {
+            (Shape::Area(_), [count, corners @ ..]) => {
                 let corners = corners.chunks(AREA_CORNER_WORDS as usize).take(*count as usize);
                 self.area(corners.map(|c| Point::new(c[0], c[1])))
             }

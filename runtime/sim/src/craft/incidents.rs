@@ -1,7 +1,7 @@
 //! What befalls the vehicle that its crew must hear of: it runs aground, or into a place where it must not be.
 
 use crate::world::bottom::NoGo;
-use albacore_geometry::{Edge, Point};
+use albacore_geometry::{Area, Point};
 
 /// So many notices wait to be taken; later ones are dropped.
 const NOTICES_MAX: usize = 64;
@@ -17,17 +17,14 @@ pub struct Incidents {
 #[derive(Clone, Debug)]
 struct Zone {
     name: String,
-    edges: Vec<Edge>,
+    area: Area,
     entered: bool,
 }
 
 impl Incidents {
     /// Nothing has happened yet.
     pub fn new(zones: &[NoGo]) -> Incidents {
-        let zone = |zone: &NoGo| {
-            let edges = zone.area.edges().collect();
-            Zone { name: zone.name.clone(), edges, entered: false }
-        };
+        let zone = |zone: &NoGo| Zone { name: zone.name.clone(), area: zone.area.clone(), entered: false };
         Incidents { aground: false, zones: zones.iter().map(zone).collect(), notices: Vec::new() }
     }
 
@@ -41,7 +38,7 @@ impl Incidents {
             self.aground = aground;
         }
         for zone in &mut self.zones {
-            let inside = zone.edges.iter().all(|edge| edge.gap(at) >= 0.0);
+            let inside = zone.area.contains(at);
             if inside != zone.entered {
                 let what = if inside { "entered" } else { "left" };
                 told.push(format!("{what} the no-go zone `{}` at {}", zone.name, place()));

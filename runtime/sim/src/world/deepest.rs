@@ -1,7 +1,7 @@
 //! The deepest point of an area: what a search for it is measured against.
 
 use crate::world::bottom::{Bottom, Ground};
-use albacore_geometry::{Area, Edge, Point, Vector};
+use albacore_geometry::{Area, Edge, Point, Vector, gap, nearest_edge};
 
 /// The first look is at so many points a side of the area's bounding box: of a pit a hundredth as wide some are seen.
 const GRID: i32 = 100;
@@ -24,7 +24,7 @@ impl Bottom {
         if let Ground::Grid(grid) = &self.ground {
             // Between its cells a survey is nowhere deeper than at one of them.
             for (cell, _) in grid.cells_between(low, high) {
-                if self.depth_at(cell) > self.depth_at(deepest) && edges.iter().all(|edge| edge.gap(cell) >= 0.0) {
+                if self.depth_at(cell) > self.depth_at(deepest) && gap(edges.iter().copied(), cell) >= 0.0 {
                     deepest = cell;
                 }
             }
@@ -52,15 +52,11 @@ impl Bottom {
     }
 }
 
-/// A point moved into a convex area, given by its edges: from each edge that it is beyond straight back onto it, round and round, for coming
-/// back over one it may leave over the next.
-fn inside(area: &[Edge], mut p: Point) -> Point {
-    for _ in 0..area.len() {
-        for edge in area {
-            p += edge.gap(p).min(0.0) * edge.normal;
-        }
-    }
-    p
+/// A point moved into an area, given by its edges: from outside to the nearest place of its outline.
+fn inside(area: &[Edge], p: Point) -> Point {
+    let edges = || area.iter().copied();
+    let outside = gap(edges(), p) < 0.0;
+    nearest_edge(edges(), p).filter(|_| outside).map_or(p, |edge| edge.nearest(p))
 }
 
 #[cfg(test)]
