@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
 
+use albacore_geometry::math::{TAU, cos, sin};
 use albacore_session::{Plan, load};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -45,6 +46,37 @@ fn a_mission_runs_in_the_area_of_a_file_and_round_another() {
     let folder = project("run");
     let (status, told) = albacore(&folder, &["run", FILES[0], "--no-out"]);
     assert!(status == Some(0) && told.contains("completed"), "{told}");
+}
+
+/// The outline of a harbour with three bays, its shore a zigzag, in GeoJSON.
+fn harbour(corners: u32) -> String {
+    let corner = |i: u32| {
+        let angle = TAU * f64::from(i) / f64::from(corners);
+        let zigzag = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
+        let out = 200.0 + 80.0 * cos(3.0 * angle) + zigzag;
+        format!("[{}, {}]", -75.74 + out * sin(angle) / 89_870.0, 36.18 + out * cos(angle) / 110_950.0)
+    };
+    let ring: Vec<String> = (0..corners).map(corner).collect();
+    format!("{{\"type\": \"Polygon\", \"coordinates\": [[{}]]}}", ring.join(", "))
+}
+
+#[test]
+fn a_search_stays_in_an_area_of_hundreds_of_corners_with_dents() {
+    let folder = project("harbour");
+    std::fs::copy("tests/areas/harbour.alb", folder.join("harbour.alb")).unwrap();
+    std::fs::write(folder.join("harbour.geojson"), harbour(300)).unwrap();
+    let (status, told) = albacore(&folder, &["test", "harbour.alb"]);
+    assert!(status == Some(0) && told.contains("1 passed"), "{told}");
+    // Whoever asks for more at once than a tick has room for is told before the launch.
+    std::fs::write(folder.join("harbour.geojson"), harbour(1025)).unwrap();
+    let (status, told) = albacore(&folder, &["check", "harbour.alb"]);
+    assert!(status == Some(3) && told.contains("has 1025 corners, and an area has at most 1024"), "{told}");
+}
+
+#[test]
+fn a_zone_with_a_basin_is_gone_round() {
+    let (status, told) = albacore(Path::new("tests/areas"), &["test", "pier.alb"]);
+    assert!(status == Some(0) && told.contains("1 passed"), "{told}");
 }
 
 #[test]
