@@ -81,6 +81,19 @@ fn edges_belong_to_their_area() {
 }
 
 #[test]
+fn an_area_at_the_prompt_has_as_many_corners_as_there_is_room_for() {
+    let corner = |i: u32| format!("point({} m, {} m)", i * i, 10 * i);
+    let polygon = |n: u32| format!("let a{n} = polygon([{}])\n", (0..n).map(corner).collect::<Vec<_>>().join(", "));
+    let out = out("room");
+    let mut child = session(&[], &out).spawn().unwrap();
+    child.stdin.take().unwrap().write_all((polygon(5) + &polygon(17) + "a5\n").as_bytes()).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    let said = std::fs::read_to_string(&out).unwrap();
+    assert!(said.contains("an area may have 17 corners here, and those of this session have 16 at most"), "{said}");
+    assert!(said.ends_with("area of 5 corners\n"), "{said}");
+}
+
+#[test]
 fn bytes_that_are_no_text_are_left_out() {
     let out = out("bytes");
     let mut child = session(&[], &out).spawn().unwrap();

@@ -247,6 +247,8 @@ fn of_area(op: Builtin, operands: &[Value]) -> Option<Value> {
             Value::of_point(corner(at(0).edges(), at(1).heading(), near))
         }
         B::NearestEdge => Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
+        B::EdgeGap => Value::Number(fits(at(0).edge().gap(at(1).point()))),
+        B::EdgeDistance => Value::Number(fits(at(0).edge().distance(at(1).point()))),
         B::Exit => Value::of_point(exit(at(0).edges(), at(1).point(), at(2).heading())),
         B::Run => fitting(exit(at(0).edges(), at(1).point(), at(2).heading()) - at(1).point()),
         _ => return None,
@@ -303,15 +305,14 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Dot => fits(at(0).vector().dot(at(1).vector())),
         B::Along => fits(at(0).vector().along(at(1).heading())),
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
-        B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::NearestEdge | B::Exit | B::Run => {
-            unreachable!("`of_area` gives it")
+        B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::NearestEdge => {
+            unreachable!("`of_area` has it")
         }
+        B::EdgeGap | B::EdgeDistance | B::Exit | B::Run => unreachable!("`of_area` has it"),
         B::LineVector => {
             let line = at(0).line();
             return fitting(line.end - line.start);
         }
-        B::EdgeGap => fits(at(0).edge().gap(at(1).point())),
-        B::EdgeDistance => fits(at(0).edge().distance(at(1).point())),
         B::EdgeTangent => at(0).edge().tangent(at(1).heading()).radians(),
         B::Gap => fits(gap(at(0).edges(), at(1).point())),
         B::Top => {

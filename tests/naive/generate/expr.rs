@@ -217,14 +217,12 @@ impl Generator {
                 "clamp($A, -30 deg, 40 deg)",
             ]),
             Ty::Heading => r.of(&["($H + $A)", "($H - $A)", "($V).toward", "($P - $P).toward", "turned($H, $M)"]),
-            Ty::Point if self.has_area && senses && r.percent(30) => {
-                r.of(&[
-                    "op.corner(toward: $H)",
-                    "op.hull.exit($P, toward: $H)",
-                    "op.exit($P, toward: $H)",
-                    "op.nearest_edge($P).line.end",
-                ])
-            }
+            Ty::Point if self.has_area && senses && r.percent(30) => r.of(&[
+                "op.corner(toward: $H)",
+                "op.hull.exit($P, toward: $H)",
+                "op.exit($P, toward: $H)",
+                "op.nearest_edge($P).line.end",
+            ]),
             Ty::Point => r.of(&[
                 "($P + $V)",
                 "($P - $V)",
