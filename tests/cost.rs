@@ -309,8 +309,9 @@ fn a_scenario_has_so_many_clauses_of_one_name_at_most() {
     assert!(many.contains("20000 clauses `pit`: 1024 are the most") && many.contains("1 error"), "{many:.2000}");
 }
 
-/// The attacks: rows were computed from the area anew, each on its own, and large elements of a list that is turned round moved past
-/// one another one by one. Both took a hundred times what their steps allow, here a quarter of a minute each.
+/// The attacks: rows were computed from the area anew, each on its own, large elements of a list that is turned round moved past
+/// one another one by one, and all edges of a star of spikes held against one another by their ends. Each took ten times what its steps
+/// allow and more, here half a minute.
 #[test]
 fn what_counts_few_steps_takes_little_time() {
     // On a parabola: none of them is inside of the others.
@@ -331,7 +332,19 @@ fn what_counts_few_steps_takes_little_time() {
          }
          wait for 55 s";
     let record = "record Place { rank: Length, a: Area, b: Area, c: Area, d: Area }";
-    for (name, script) in [("rows", script("", &rows)), ("turned", script(record, turned))] {
+    // Spikes about one middle: of no two of them are the boxes apart.
+    let tip = |i: usize| {
+        let out = if i.is_multiple_of(2) { 300 } else { 40 };
+        format!("point(0 m, 0 m) + {out} m toward (north + {i} * 0.36 deg),")
+    };
+    let star = format!("const star: [Point; 1000] = [{}]", lines(1000, tip));
+    let spikes = "memory made: Int = 0
+         on true { for i in 1..3 { if polygon(star) != none { made = i } } }
+         wait for 60 s
+         log \"{made}\"";
+    for (name, script) in
+        [("rows", script("", &rows)), ("turned", script(record, turned)), ("spikes", script(&star, spikes))]
+    {
         let (output, told) = run_within(&["run", "--no-out"], name, &script, None);
         assert_eq!(output.status.code(), Some(0), "{name}: {told:.2000}");
     }

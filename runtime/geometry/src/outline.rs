@@ -43,12 +43,23 @@ fn meet(a: Line, b: Line) -> bool {
     {
         return false;
     }
-    let divides = |line: Line, other: Line| {
-        let side = |p: Point| wedge(line.end - line.start, p - line.start);
-        side(other.start) * side(other.end) < 0.0
-    };
+    if is_beside(a, b) || is_beside(b, a) {
+        return false;
+    }
+    let divides = |line: Line, other: Line| off(line, other.start) * off(line, other.end) < 0.0;
     let ends = [distance(a, b.start), distance(a, b.end), distance(b, a.start), distance(b, a.end)];
     (divides(a, b) && divides(b, a)) || ends.iter().any(|end| *end < SEPARATION_M)
+}
+
+/// Whether all of another line lies to one side of that which goes on where a line ends: that tells most pairs apart.
+fn is_beside(line: Line, other: Line) -> bool {
+    let (start, end, least) = (off(line, other.start), off(line, other.end), SEPARATION_M * line.length());
+    start.min(end) > least || start.max(end) < -least
+}
+
+/// How far a point is to the right of a line, m, times the length of that.
+fn off(line: Line, p: Point) -> f64 {
+    wedge(line.end - line.start, p - line.start)
 }
 
 /// Metres from a point to the nearest place of a line.
