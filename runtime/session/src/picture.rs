@@ -49,6 +49,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         plume: world.plume.clone(),
         deepest,
         map: results.map.clone(),
+        outlines: results.areas.clone().into_iter().collect(),
         start: results.start,
         track: track.points.clone(),
         behaviors: track.behaviors.clone(),

@@ -52,8 +52,7 @@ impl Reader<'_> {
             }
             Shape::Line | Shape::Edge => json!({ "start": place(0), "end": place(2) }),
             Shape::Area(_) => {
-                let corners = words.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
-                let corners = corners.take(word(0) as usize).map(|c| self.place(Point::new(c[0], c[1])));
+                let corners = corners(shape, words).into_iter().flatten().map(|corner| self.place(corner));
                 json!({ "corners": corners.collect::<Vec<_>>() })
             }
             Shape::Text => json!(number::plain(&self.program.texts, word(0))),
@@ -116,6 +115,14 @@ impl Reader<'_> {
         let legend = if low == high { format!("{name}: {low} everywhere") } else { format!("{name}: {low} to {high}") };
         Some(Cells { legend, ..cells })
     }
+}
+
+/// The corners of an area; none of what is no area.
+pub(crate) fn corners(shape: &Shape, words: &[f64]) -> Option<Vec<Point>> {
+    let Shape::Area(_) = shape else { return None };
+    let count = words.first().copied().unwrap_or(0.0) as usize;
+    let corners = words.get(1..)?.chunks_exact(AREA_CORNER_WORDS as usize).take(count);
+    Some(corners.map(|corner| Point::new(corner[0], corner[1])).collect())
 }
 
 fn grid(words: &[f64]) -> Grid {

@@ -61,6 +61,8 @@ pub struct Picture {
     pub leaks: Vec<[Point; 2]>,
     /// The bottom's shape, where it is what is searched.
     pub depths: Depths,
+    /// Areas that were reported: names and corners.
+    pub outlines: Vec<(String, Vec<Point>)>,
     /// The map that was reported last.
     pub map: Option<Cells>,
     /// The deepest point of the operating area, where it is what is searched.
@@ -108,6 +110,7 @@ impl Picture {
             .area
             .iter()
             .chain(&self.water)
+            .chain(self.outlines.iter().flat_map(|(_, corners)| corners))
             .chain(self.leaks.iter().flatten())
             .copied()
             .chain(self.route.iter().copied())

@@ -211,3 +211,17 @@ fn cells_are_the_darker_the_more_is_in_them() {
     assert!(svg.contains("belief: 0 to 1"), "{svg}");
     assert_eq!(cells(&picture([2.0; 4])), 0, "where all cells hold the same there is nothing to be seen");
 }
+
+#[test]
+fn areas_that_were_reported_are_drawn_and_named() {
+    let dent = vec![
+        Point::ORIGIN,
+        Point::new(20.0, 0.0),
+        Point::new(5.0, 10.0),
+        Point::new(20.0, 20.0),
+        Point::new(0.0, 20.0),
+    ];
+    let svg = Picture { outlines: vec![("hollow".to_string(), dent)], ..Picture::default() }.svg();
+    assert!(svg.contains(">hollow<") && svg.contains(">reported area<"), "{svg}");
+    assert_eq!(svg.lines().filter(|line| line.contains("Z\" fill=\"#111\" fill-opacity=\"0.08\"")).count(), 2, "{svg}");
+}

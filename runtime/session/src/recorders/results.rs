@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use crate::plan::Plan;
-use crate::reported::{Reader, fields};
+use crate::reported::{Reader, corners, fields};
 use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
@@ -15,6 +15,8 @@ use std::sync::Arc;
 const REPORTS_LISTED_MAX: usize = 10_000;
 /// Words of reports that it lists, in the same way: maps are large.
 const REPORTED_WORDS_MAX: usize = 1_000_000;
+/// Areas of different names that are drawn.
+const AREAS_DRAWN_MAX: usize = 40;
 /// A link's positions are 0.2 m fine: shorter steps than this, m, would count its rounding as a way.
 const LINK_GRAIN: f64 = 2.0;
 
@@ -114,6 +116,8 @@ pub(crate) struct Results {
     pub area: Vec<Point>,
     /// The deepest point of that, once it has one; none where the water is equally deep everywhere.
     pub deepest: Option<Point>,
+    /// The areas that were reported, each as it was last, by their names.
+    pub areas: BTreeMap<String, Vec<Point>>,
     /// The map that was reported last.
     pub map: Option<Cells>,
     /// Where the vehicle was first.
@@ -134,6 +138,7 @@ impl Results {
             reports: Reports::default(),
             area: Vec::new(),
             deepest: None,
+            areas: BTreeMap::new(),
             map: None,
             start,
             ticks: 0,
@@ -234,10 +239,13 @@ impl Results {
         self.reports.count(&site.name, Reported { t_s, place, site: id, words: words.into() });
         let frame = self.plan.frame();
         let reader = Reader { program: &program, frame };
-        let map = fields(site, words).find_map(|(label, shape, words)| {
-            reader.cells(if label.is_empty() { &site.name } else { label }, shape, words)
-        });
-        self.map = map.or(self.map.take());
+        for (label, shape, words) in fields(site, words) {
+            let name = if label.is_empty() { &site.name } else { label };
+            self.map = reader.cells(name, shape, words).or(self.map.take());
+            let corners =
+                corners(shape, words).filter(|_| self.areas.len() < AREAS_DRAWN_MAX || self.areas.contains_key(name));
+            self.areas.extend(corners.map(|corners| (name.to_string(), corners)));
+        }
         if !self.reports.admits(id, words.len()) {
             return;
         }

@@ -32,6 +32,8 @@ pub const PLUME: &str = "#b08d2f";
 pub const DETECTION: &str = "#333";
 /// The colour of places where the vehicle must not be.
 const NO_GO: &str = "#b3001b";
+/// The colour of areas that were reported.
+const OUTLINE: &str = "#111";
 /// The colour of true sources.
 const SOURCE: &str = "#7a0019";
 /// The colour of the beginnings of rounds.
@@ -54,6 +56,9 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     for (_, corners) in &picture.no_go {
         no_go(svg, &outline(corners, frame));
     }
+    for (_, corners) in &picture.outlines {
+        reported_area(svg, &outline(corners, frame));
+    }
     route(svg, &outline(&picture.route, frame));
     leaks(&picture.leaks, frame).iter().for_each(|ends| leak(svg, ends));
     detections(svg, picture, frame);
@@ -75,6 +80,17 @@ pub fn no_go(svg: &mut Svg, corners: &[(f64, f64)]) {
     if corners.len() > 2 {
         let attributes = format!("fill=\"{NO_GO}\" fill-opacity=\"0.12\" stroke=\"{NO_GO}\" stroke-width=\"1.3\"");
         svg.path(corners, true, &attributes);
+    }
+}
+
+/// An outline that was reported.
+pub fn reported_area(svg: &mut Svg, corners: &[(f64, f64)]) {
+    if corners.len() > 2 {
+        svg.path(
+            corners,
+            true,
+            &format!("fill=\"{OUTLINE}\" fill-opacity=\"0.08\" stroke=\"{OUTLINE}\" stroke-width=\"1.6\""),
+        );
     }
 }
 
@@ -241,12 +257,14 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     start.into_iter().for_each(|at| start_mark(svg, at));
     sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
     reports.iter().for_each(|(_, at)| report_mark(svg, *at));
-    for (name, corners) in &picture.no_go {
+    let no_go = picture.no_go.iter().map(|(name, corners)| (name, corners, NO_GO));
+    let reported = picture.outlines.iter().map(|(name, corners)| (name, corners, OUTLINE));
+    for (name, corners, colour) in no_go.chain(reported) {
         let corners = outline(corners, frame);
         let share = 1.0 / corners.len().max(1) as f64;
         let middle = corners.iter().fold((0.0, 0.0), |(x, y), corner| (x + share * corner.0, y + share * corner.1));
         if frame.shows(middle) {
-            labels.put(svg, frame, middle, name, NO_GO);
+            labels.put(svg, frame, middle, name, colour);
         }
     }
     for (name, at) in reports.iter().take(LABELS_MAX) {

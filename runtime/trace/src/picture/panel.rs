@@ -50,6 +50,7 @@ impl<'a> Panel<'a> {
             (!picture.area.is_empty(), area, area_mark),
             (!picture.route.is_empty(), "its own mission", route_mark),
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
+            (!picture.outlines.is_empty(), "reported area", reported_area_mark),
             (!picture.plume.is_empty(), "plume", plume_mark),
             (!chart::legs(&picture.rounds, frame).is_empty(), "round of a loop begins", chart::round_mark),
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
@@ -188,6 +189,10 @@ fn route_mark(svg: &mut Svg, (x, y): (f64, f64)) {
 
 fn no_go_mark(svg: &mut Svg, (x, y): (f64, f64)) {
     chart::no_go(svg, &[(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)]);
+}
+
+fn reported_area_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    chart::reported_area(svg, &[(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)]);
 }
 
 fn leak_mark(svg: &mut Svg, (x, y): (f64, f64)) {
