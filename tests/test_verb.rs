@@ -351,6 +351,14 @@ fn each_row_of_a_table_is_held_to_all_that_is_expected() {
 }
 
 #[test]
+fn what_must_hold_once_is_awaited() {
+    let [held, failed] = held_and_failed("once", include_str!("test_verb/once.alb"));
+    assert_eq!((held.0, held.1.contains("1 passed, 0 failed")), (Some(0), true), "{}", held.1);
+    assert_eq!(failed.0, Some(1), "{}", failed.1);
+    insta::assert_snapshot!(failed.1);
+}
+
+#[test]
 fn the_values_of_reports_and_of_their_labels_can_be_asked_for() {
     let [held, failed] = held_and_failed("labelled", include_str!("test_verb/labelled.alb"));
     assert_eq!((held.0, held.1.contains("1 passed, 0 failed")), (Some(0), true), "{}", held.1);

@@ -182,6 +182,7 @@ impl<'t> Checker<'t> {
         let when = match mode {
             ExpectMode::EveryRun => When::AtTheEnd(1.0),
             ExpectMode::Always => When::Always,
+            ExpectMode::Once => When::Once,
             ExpectMode::While(behavior) => {
                 self.asks_no_ending(&holds);
                 // One that is not understood has been told: the test is not run.

@@ -188,6 +188,8 @@ pub enum When<A> {
     AtTheEnd(f64),
     /// At every tick of every run.
     Always,
+    /// At some tick of every run.
+    Once,
     /// At every tick in which a behavior or a strategy is active.
     While(A),
 }

@@ -194,6 +194,7 @@ fn expectation<'a>(
         when: match expect.when {
             When::AtTheEnd(share) => When::AtTheEnd(share),
             When::Always => When::Always,
+            When::Once => When::Once,
             // What is not lowered with the mission is never entered.
             When::While(id) => When::While(place(id).unwrap_or(ActivityId::MAX)),
         },

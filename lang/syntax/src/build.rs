@@ -317,14 +317,15 @@ fn test_clause(b: &mut Builder, node: Node) -> Option<TestClause> {
                 .collect(),
         },
         Rule::expect_clause => {
-            let always = node.inner().any(|word| word.rule() == Rule::w_always);
+            let has = |mode: Rule| node.inner().any(|word| word.rule() == mode);
             if let Some(behavior) = take(&mut inner, Rule::path).map(path) {
                 return Some(TestClause::Expect { mode: ExpectMode::While(behavior), holds: expr(b, inner.next()?) });
             }
             let first = expr(b, inner.next()?);
             let (mode, holds) = match inner.next() {
                 Some(holds) => (ExpectMode::ShareOfRuns(first), expr(b, holds)),
-                None if always => (ExpectMode::Always, first),
+                None if has(Rule::w_always) => (ExpectMode::Always, first),
+                None if has(Rule::w_once) => (ExpectMode::Once, first),
                 None => (ExpectMode::EveryRun, first),
             };
             TestClause::Expect { mode, holds }

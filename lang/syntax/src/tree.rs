@@ -482,6 +482,8 @@ pub enum ExpectMode {
     ShareOfRuns(Expr),
     /// At every tick of every run.
     Always,
+    /// At some tick of every run.
+    Once,
     /// At every tick in which a behavior is active.
     While(Path),
 }

@@ -41,7 +41,7 @@ const CALLED: u16 = 1 << 10;
 const ARGUMENTS: u16 = 1 << 11;
 
 /// Every word that means something somewhere, but for those that guidance laws begin with: these are in the table of laws.
-const WORDS: [Word; 81] = [
+const WORDS: [Word; 82] = [
     // Declarations.
     word("use", RESERVED | ITEM | FRESH),
     word("const", RESERVED | ITEM | FRESH | NAMES),
@@ -124,6 +124,7 @@ const WORDS: [Word; 81] = [
     word("most", 0),
     word("new", 0),
     word("offered", 0),
+    word("once", 0),
     word("runs", 0),
     word("seed", 0),
     word("seeds", 0),

@@ -130,7 +130,7 @@ fn failures(test: &TestProgram, row: &RowProgram, runs: &[Judged]) -> Vec<Failur
         let held = looked - broken.len();
         let share = match expect.when {
             When::AtTheEnd(share) => Some(share),
-            When::Always | When::While(_) => None,
+            When::Always | When::Once | When::While(_) => None,
         };
         // A share of whole runs, of one at least: no run is missing for the last bits of a product. What was never looked at does not hold.
         let enough = held > 0 && held as f64 >= share.unwrap_or(1.0) * looked as f64 - 1e-6;

@@ -59,9 +59,23 @@ impl<'t> Expectations<'t> {
     fn look(&mut self, is_due: impl Fn(When<ActivityId>) -> bool) {
         let test = self.test;
         for (i, expect) in test.expects.iter().enumerate().filter(|(_, expect)| is_due(expect.when)) {
-            self.looked[i] = true;
-            if self.breaches[i].is_none() {
+            let first = !std::mem::replace(&mut self.looked[i], true);
+            if expect.when == When::Once {
+                // It is awaited until it has held; what it was at the end is told of what never did.
+                let is_awaited = first || self.breaches[i].is_some();
+                self.breaches[i] = (is_awaited && !self.holds(expect)).then(String::new);
+            } else if self.breaches[i].is_none() {
                 self.breaches[i] = self.breach(expect);
+            }
+        }
+    }
+
+    /// At the end: what there is to tell of what never held.
+    fn tell_unmet(&mut self) {
+        let test = self.test;
+        for (i, expect) in test.expects.iter().enumerate().filter(|(_, expect)| expect.when == When::Once) {
+            if self.breaches[i].is_some() {
+                self.breaches[i] = self.breach(expect).map(|found| format!("never; at the end {found}"));
             }
         }
     }
@@ -76,6 +90,22 @@ impl<'t> Expectations<'t> {
         number::seconds(self.results.ticks.saturating_sub(1)).trim().to_string()
     }
 
+    /// Whether all that an expectation takes for granted is there, and it holds.
+    fn holds(&mut self, expect: &ExpectProgram) -> bool {
+        let (test, evaluation) = (self.test, &mut self.evaluation);
+        if expect.needs.iter().any(|(need, _)| evaluation.words(*need, 1)[0] == 0.0) {
+            return false;
+        }
+        for (point, answer) in &expect.depths {
+            evaluation.run(&test.program, point.entry);
+            let words = evaluation.words(point.value, 2);
+            let depth = self.results.plan.scenario.environment.bottom.depth_at(Point::new(words[0], words[1]));
+            evaluation.set(*answer, &[depth]);
+        }
+        evaluation.run(&test.program, expect.holds.entry);
+        evaluation.words(expect.holds.value, 1)[0] != 0.0
+    }
+
     /// What was found, when an expectation does not hold.
     fn breach(&mut self, expect: &ExpectProgram) -> Option<String> {
         let when = match (expect.when, self.ending()) {
@@ -85,22 +115,16 @@ impl<'t> Expectations<'t> {
             }
             _ => self.time(),
         };
-        let (test, evaluation) = (self.test, &mut self.evaluation);
+        let test = self.test;
         for (need, without) in &expect.needs {
-            if evaluation.words(*need, 1)[0] == 0.0 {
+            if self.evaluation.words(*need, 1)[0] == 0.0 {
                 return Some(format!("{without} ({when})"));
             }
         }
-        for (point, answer) in &expect.depths {
-            evaluation.run(&test.program, point.entry);
-            let words = evaluation.words(point.value, 2);
-            let depth = self.results.plan.scenario.environment.bottom.depth_at(Point::new(words[0], words[1]));
-            evaluation.set(*answer, &[depth]);
-        }
-        evaluation.run(&test.program, expect.holds.entry);
-        if evaluation.words(expect.holds.value, 1)[0] != 0.0 {
+        if self.holds(expect) {
             return None;
         }
+        let evaluation = &mut self.evaluation;
         let mut found: Vec<String> = Vec::new();
         for NamedValue { name, code, shape, needs } in &expect.watched {
             if needs.iter().any(|need| evaluation.words(*need, 1)[0] == 0.0) {
@@ -190,9 +214,9 @@ impl Recorder for Expectations<'_> {
         let due = |when| match (&record.step, when) {
             (Step::Wait, _) | (Step::Tick, When::AtTheEnd(_)) | (Step::End(_), When::While(_)) => false,
             // On the first tick nothing has happened yet, and the last one is looked at with the end.
-            (Step::Tick, When::Always) => record.tick > 0 && !record.is_last,
+            (Step::Tick, When::Always | When::Once) => record.tick > 0 && !record.is_last,
             (Step::Tick, When::While(id)) => within.contains(&id),
-            (Step::End(_), When::Always | When::AtTheEnd(_)) => true,
+            (Step::End(_), When::Always | When::Once | When::AtTheEnd(_)) => true,
         };
         if self.test.expects.iter().any(|expect| due(expect.when)) {
             let activities = &self.results.plan.program.activities;
@@ -200,6 +224,9 @@ impl Recorder for Expectations<'_> {
             self.active = within.iter().map(name).collect::<Vec<_>>().join(" > ");
             self.set_slots();
             self.look(due);
+        }
+        if matches!(record.step, Step::End(_)) {
+            self.tell_unmet();
         }
     }
 }
