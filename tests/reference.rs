@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot read the reference has failed")]
 
-use crate::examples::{Example, OF_A_FRAGMENT, examples, findings};
+use crate::examples::{Example, OF_A_FRAGMENT, examples, findings, folder};
 use albacore_program::{Guide, Omitted, ParamKind};
 use albacore_session::{Faults, run_test};
 use std::collections::BTreeSet;
@@ -56,8 +56,7 @@ fn the_answers_of_the_cookbook_are_checked() {
 /// A test that is shown passes, but for its snapshot, which a page cannot hold.
 #[test]
 fn the_tests_of_the_examples_pass() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples-run");
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = folder("examples-run");
     let mut run = 0;
     let pages = [REFERENCE, "docs/cookbook.md"].into_iter().flat_map(examples);
     for example in pages.filter(|e| e.text.lines().any(|line| line.starts_with("test \""))) {

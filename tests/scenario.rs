@@ -93,6 +93,14 @@ fn a_surveyed_bottom_is_listed_as_it_came_to_lie() {
     insta::assert_snapshot!(listing.split("\n\nvehicle").next().unwrap());
 }
 
+/// Of what is played more than its file: how many samples there are of each, when they come and what they tell.
+#[test]
+fn what_is_played_is_listed_as_it_comes() {
+    let listing = listed(&["tests/scenario/played.alb", "--no-out"]);
+    let played: Vec<&str> = listing.split("\n\n").filter(|clause| clause.starts_with("played\n")).collect();
+    insta::assert_snapshot!(played.join("\n\n"));
+}
+
 /// The library's scenarios can all be, and those of the trial differ where they say so.
 #[test]
 fn the_library_has_worlds_that_can_be() {

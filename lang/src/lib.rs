@@ -30,7 +30,7 @@ pub use rules::{FAR_M, hemisphere};
 use crate::code::Code;
 pub use albacore_formats::FileFault;
 use albacore_geometry::Geodetic;
-use albacore_program::{Channel, Program};
+use albacore_program::{Channel, Program, Shape};
 use broken::Broken;
 use cascade::Cascades;
 use check::{Checked, Override};
@@ -289,6 +289,12 @@ impl Script {
     pub fn recorded(&self, mission: &str) -> Vec<(&str, source::Span)> {
         let recorded = self.mission_id(mission).map(|id| rules::inputs_recorded(&self.hir, id)).unwrap_or_default();
         recorded.into_iter().map(|(input, span)| (self.hir.inputs[input].name.as_str(), span)).collect()
+    }
+
+    /// The shape of an input, without its further fields.
+    pub fn input_shape(&self, name: &str) -> Option<Shape> {
+        let input = self.hir.inputs.iter().find(|input| input.name == name)?;
+        Some(self.types.shape(&input.ty))
     }
 
     /// What a mission asks of payloads, such as `camera.start`, each with the place where it does so first.

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_session::{Script, Severity, load};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What a body of statements stands in: a mission that knows its position and has its setpoints.
 const BEFORE: &str = "\
@@ -62,12 +62,18 @@ pub fn examples(page: &str) -> Vec<Example> {
     examples
 }
 
+/// A folder for examples, with the files of data that they name.
+pub fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("dive_12.csv"), include_str!("dive_12.csv")).unwrap();
+    folder
+}
+
 /// Loads a script that stands in no file, with all that `check` says of it, or `check --notes`: code and message of each
 /// finding.
 pub fn findings(name: &str, text: &str, notes: bool) -> Vec<(&'static str, String)> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples");
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(format!("{name}.alb"));
+    let path = folder("examples").join(format!("{name}.alb"));
     std::fs::write(&path, text).unwrap();
     let script: Script = load(&path, None, &[]).unwrap();
     let mut found = script.findings.clone();

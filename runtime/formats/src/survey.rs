@@ -10,20 +10,22 @@ mod axis;
 mod classic;
 mod conventions;
 mod csv;
-mod fault;
 mod grid;
 mod marks;
 
 pub use axis::Axis;
-pub use fault::{Fault, Unreadable};
 pub use grid::{Extent, Kind, Placing, Survey};
 
-use fault::Faults;
+use crate::fault::{Fault, Faults, Unreadable};
 
 /// A file has at most this many bytes: a survey of [`CELLS_MAX`] cells as numbers of eight bytes, and a little more.
 pub const FILE_BYTES_MAX: u64 = 40_000_000;
 /// A grid has at most this many cells: 2000 a side.
 pub const CELLS_MAX: u64 = 4_000_000;
+
+/// The mend of a grid that is too large.
+const CUT_IT: &str =
+    "cut out the part that is needed, such as with `ncks -d lat,10.,12. -d lon,140.,143. IN.nc OUT.nc`";
 
 /// What an HDF5 file begins with, behind a block of the user's own if it has one.
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
@@ -59,7 +61,7 @@ fn read_into(bytes: &[u8], faults: &mut Faults) -> Option<Survey> {
     if bytes.len() as u64 > FILE_BYTES_MAX {
         let megabytes = bytes.len() as f64 / 1e6;
         let most = FILE_BYTES_MAX as f64 / 1e6;
-        faults.add(format!("the file has {megabytes:.1} MB: {most} MB are read at most"), fault::CUT_IT);
+        faults.add(format!("the file has {megabytes:.1} MB: {most} MB are read at most"), CUT_IT);
         return None;
     }
     if let Some((_, what, mend)) = FOREIGN.iter().find(|(magic, ..)| begins(bytes, magic)) {

@@ -2,7 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test whose survey cannot be read has failed")]
 
-use albacore_formats::survey::{CELLS_MAX, FILE_BYTES_MAX, Fault, Kind, Survey, read};
+use albacore_formats::Fault;
+use albacore_formats::survey::{CELLS_MAX, FILE_BYTES_MAX, Kind, Survey, read};
 use albacore_geometry::math::degrees;
 
 /// Two rows of three cells in metres.

@@ -5,6 +5,7 @@ mod clause;
 mod defaults;
 mod named;
 mod objected;
+mod played;
 mod recorded;
 
 use crate::files::{FileError, Files};
@@ -15,11 +16,13 @@ use albacore_lang::{ScenarioClause, ScenarioProgram};
 use albacore_link::Dialect;
 use albacore_machine::Evaluation;
 use albacore_sim::{EnvironmentSetting, InstrumentSetting, Scenario, Setting};
+use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 pub(crate) use clause::Clause;
 pub(crate) use defaults::DEFAULTS;
 pub(crate) use named::{cannot_begin, named, place_of, sound};
 pub(crate) use objected::objected;
+pub(crate) use played::shape;
 use serde::Deserialize;
 
 /// A scenario that was understood.
@@ -30,6 +33,15 @@ pub(crate) struct Understood {
     pub dialect: Option<&'static Dialect>,
     /// The files of numbers that it was read from.
     pub files: Vec<SourceDigest>,
+}
+
+impl Understood {
+    /// Notes that it was read from a file: who goes on with a run wants it to be the same.
+    fn note_file(&mut self, name: String, bytes: &[u8]) {
+        let mut digest = Digest::new();
+        digest.bytes(bytes);
+        self.files.push(SourceDigest { name, digest: digest.value() });
+    }
 }
 
 /// The simulator's scenario; else what of it cannot be understood, and where.
@@ -57,6 +69,7 @@ fn read(understood: &mut Understood, c: Clause, files: &Files, frame: Option<Tan
     match c.clause.name.as_str() {
         "bottom_grid" => bottom::grid(understood, c.read()?, files, frame),
         "recorded_plume" => recorded::recorded_plume(understood, c.read()?, files),
+        "played" => played::played(understood, c.read()?, files),
         "dialect" => dialect(c.read()?).map(|dialect| understood.dialect = Some(dialect)),
         "link_fault" => Err(cannot_be("it is what `albacore vehicle --link-faults` takes, not part of a world")),
         name if EnvironmentSetting::NAMES.contains(&name) => {
@@ -118,6 +131,15 @@ impl Wrong {
             let finding = Diagnostic::error(Code::ScenariosClause, span, message);
             help.into_iter().fold(finding, Diagnostic::help)
         })
+    }
+
+    /// What is wrong in a file.
+    fn in_file(path: &str, faults: Vec<albacore_formats::Fault>) -> Self {
+        let told = |fault: albacore_formats::Fault| Fault {
+            message: format!("`{path}`: {}", fault.message),
+            help: Some(fault.help),
+        };
+        Wrong(faults.into_iter().map(told).collect())
     }
 
     /// What is wrong, and its mend.

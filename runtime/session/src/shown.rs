@@ -2,6 +2,7 @@
 
 mod clause_formatter;
 mod record;
+mod samples;
 mod view;
 
 use crate::plan::PlanError;
@@ -61,6 +62,7 @@ impl Shown {
         let mut clauses = Vec::new();
         let words = scenario::words(&lowered);
         let formatter = ClauseFormatter { words: &words, frame: lowered.origin.map(|origin| TangentFrame { origin }) };
+        let mut played = world.instruments.played.iter();
         for clause in &lowered.clauses {
             formatter.push_clause(clause, "", ValueSource::Said, &mut clauses);
             match (clause.name.as_str(), clauses.last_mut()) {
@@ -69,6 +71,7 @@ impl Shown {
                         told.values.extend(formatter.survey(grid));
                     }
                 }
+                ("played", Some(told)) => told.values.extend(played.next().into_iter().flat_map(samples::values)),
                 ("recorded_plume", _) => record::push_recorded(&world, &formatter, &mut clauses),
                 _ => {}
             }

@@ -17,7 +17,7 @@ pub use craft::hull;
 pub use craft::payload::Payload;
 pub use craft::sensors::{
     Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
-    Pressure, Sounder, Usbl,
+    Played, PlayedSample, Pressure, Sounder, Usbl,
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};

@@ -159,11 +159,10 @@ pub fn all() -> Vec<Measurement> {
     delivered(|_| true)
 }
 
-/// Those of a vehicle that has some of the instruments which vehicles may lack. A number keeps its place: what is not delivered before
-/// others has no name there. A mission that requires what its vehicle does not measure is refused before it begins.
-pub fn delivered(has: impl Fn(&str) -> bool) -> Vec<Measurement> {
-    let is_there = |row: &MeasurementInfo| row.instrument.is_none_or(&has);
-    let count = ALL.iter().rposition(is_there).map_or(0, |last| last + 1);
+/// Those that a vehicle tells. A number keeps its place: what is not delivered before others has no name there. A mission that requires
+/// what its vehicle does not measure is refused before it begins.
+pub fn delivered(is_there: impl Fn(&MeasurementInfo) -> bool) -> Vec<Measurement> {
+    let count = ALL.iter().rposition(&is_there).map_or(0, |last| last + 1);
     let name = |row: &MeasurementInfo| if is_there(row) { row.name.to_owned() } else { String::new() };
     ALL[..count].iter().map(|row| Measurement { name: name(row), width: row.quantity.width() }).collect()
 }

@@ -39,6 +39,11 @@ impl Quantity {
         }
     }
 
+    /// Whether it is one number with a unit.
+    pub const fn is_scalar(self) -> bool {
+        self.width() == 1 && !matches!(self, Quantity::Word | Quantity::Date)
+    }
+
     /// Whether a reading can be: the ocean is 11 km deep, no tide runs at 10 m/s, no vehicle of ours at 15.
     pub fn can_be(self, reading: Reading) -> bool {
         let [a, b, c, _] = reading;

@@ -1,7 +1,8 @@
 //! One side of a grid: evenly spaced places, ascending.
 
+use crate::fault::{Fault, compact, counted, shortened};
 use crate::survey::CELLS_MAX;
-use crate::survey::fault::{self, Fault, compact, counted, shortened};
+use crate::survey::CUT_IT;
 
 /// A place is off its even spacing by at most this share of a step. Degrees in single precision are: steps of 15 seconds
 /// of arc about 290 degrees by 0.4 %.
@@ -28,7 +29,7 @@ impl Axis {
         }
         let Some(count) = u32::try_from(count).ok().filter(|count| u64::from(*count) <= CELLS_MAX) else {
             let message = format!("`{name}` has {count} places: {CELLS_MAX} cells are read at most");
-            return Err(Fault::new(message, fault::CUT_IT));
+            return Err(Fault::new(message, CUT_IT));
         };
         let runs = || format!("`{name}` runs from {} to {}", compact(first), compact(last));
         if !(first.is_finite() && last.is_finite()) {

@@ -6,8 +6,9 @@
 
 mod bytes;
 
+use crate::fault::{Fault, counted, shortened};
 use crate::survey::CELLS_MAX;
-use crate::survey::fault::{self, Fault, counted, shortened};
+use crate::survey::CUT_IT;
 use bytes::Bytes;
 
 /// The marks that begin a list.
@@ -189,7 +190,7 @@ impl<'a> Classic<'a> {
         }
         if count > CELLS_MAX {
             let message = format!("`{}` has {count} values: {CELLS_MAX} are read at most", shortened(variable.name));
-            return Err(Fault::new(message, fault::CUT_IT));
+            return Err(Fault::new(message, CUT_IT));
         }
         let end = count.saturating_mul(variable.kind.size()).saturating_add(variable.begin);
         let held = self.bytes.len() as u64;

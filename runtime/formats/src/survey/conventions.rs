@@ -6,9 +6,9 @@
 
 mod packing;
 
+use crate::fault::{Fault, Faults, compact, listed, shortened};
 use crate::survey::axis::Axis;
 use crate::survey::classic::{Classic, Variable};
-use crate::survey::fault::{Fault, Faults, compact, listed, shortened};
 use crate::survey::grid::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
 use crate::survey::marks;
 use packing::Packing;

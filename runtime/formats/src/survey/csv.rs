@@ -11,8 +11,8 @@
 //! `nodata=VALUE` cells of that value are known to hold nothing, and with `nodata=none` all cells to hold depths. Other words of
 //! the head are remarks, as are further lines that begin with `#`; blank lines count for nothing.
 
+use crate::fault::{Fault, Faults, counted, shortened};
 use crate::survey::axis::Axis;
-use crate::survey::fault::{Fault, Faults, counted, shortened};
 use crate::survey::grid::{Kind, Survey, check_size, check_water, going_on, is_on_earth, on_a_plane, on_the_globe};
 use crate::survey::marks;
 

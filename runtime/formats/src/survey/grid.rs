@@ -1,8 +1,8 @@
 //! A survey that was read: depths on a grid, and where that comes to lie in a mission's plane.
 
+use crate::fault::{Fault, Faults, compact};
 use crate::survey::axis::Axis;
-use crate::survey::fault::{Fault, Faults, compact};
-use crate::survey::{CELLS_MAX, fault};
+use crate::survey::{CELLS_MAX, CUT_IT};
 use albacore_geometry::math::{PI, TAU, radians};
 use albacore_geometry::{Point, TangentFrame, metres_per_radian};
 
@@ -175,7 +175,7 @@ pub(crate) fn check_size(rows: u64, columns: u64) -> Result<u64, Fault> {
         Some(cells) if cells <= CELLS_MAX => Ok(cells),
         _ => {
             let message = format!("the grid has {rows} rows of {columns} cells: {CELLS_MAX} cells are read at most");
-            Err(Fault::new(message, fault::CUT_IT))
+            Err(Fault::new(message, CUT_IT))
         }
     }
 }

@@ -4,7 +4,8 @@
 
 mod writer;
 
-use albacore_formats::survey::{CELLS_MAX, Fault, Kind, Survey, Unreadable, read};
+use albacore_formats::survey::{CELLS_MAX, Kind, Survey, read};
+use albacore_formats::{Fault, Unreadable};
 use writer::File;
 use writer::Values::{Doubles, Floats, Shorts, Text};
 

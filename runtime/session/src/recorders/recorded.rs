@@ -1,7 +1,7 @@
 //! What a mission records: a table with a row for each moment at which anything is due. It is made of nothing but what came from the
 //! vehicle and of what was active, so that it steers nothing, and a journal that is read back gives the same bytes.
 
-mod cells;
+pub(crate) mod cells;
 
 use super::Recorder;
 use crate::plan::Plan;

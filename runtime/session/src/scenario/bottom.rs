@@ -1,7 +1,7 @@
 //! A bottom that was surveyed: its file, and whether the vehicle starts over it.
 
 use super::clause::Clause;
-use super::{Fault, Understood, Wrong};
+use super::{Understood, Wrong};
 use crate::files::Files;
 use albacore_formats::survey::{FILE_BYTES_MAX, Placing};
 use albacore_geometry::{Point, TangentFrame};
@@ -9,8 +9,6 @@ use albacore_lang::ScenarioProgram;
 use albacore_lang::code::Code;
 use albacore_lang::diagnostic::Diagnostic;
 use albacore_sim::{Grid, Ground, Scenario};
-use albacore_trace::Digest;
-use albacore_trace::journal::SourceDigest;
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -35,13 +33,8 @@ pub fn grid(
     let BottomGrid { file: path, at, northward, eastward, scale, depth_scale } = clause;
     let placing = Placing { at, share: (northward, eastward), scale };
     let bytes = files.data(&path, FILE_BYTES_MAX)?;
-    let in_file = |fault: albacore_formats::survey::Fault| Fault {
-        message: format!("`{path}`: {}", fault.message),
-        help: Some(fault.help),
-    };
-    let survey = albacore_formats::survey::read(&bytes)
-        .map_err(|unreadable| Wrong(unreadable.faults.into_iter().map(in_file).collect()))?;
-    let extent = survey.extent(&placing, frame).map_err(|fault| Wrong(vec![in_file(fault)]))?;
+    let survey = albacore_formats::survey::read(&bytes).map_err(|wrong| Wrong::in_file(&path, wrong.faults))?;
+    let extent = survey.extent(&placing, frame).map_err(|fault| Wrong::in_file(&path, vec![fault]))?;
     understood.world.environment.bottom.ground = Ground::Grid(Arc::new(Grid {
         south_west: extent.south_west,
         north_east: extent.north_east,
@@ -49,9 +42,7 @@ pub fn grid(
         columns: survey.east.count,
         depths: survey.depths.iter().map(|depth| depth * depth_scale).collect(),
     }));
-    let mut digest = Digest::new();
-    digest.bytes(&bytes);
-    understood.files.push(SourceDigest { name: path, digest: digest.value() });
+    understood.note_file(path, &bytes);
     Ok(())
 }
 

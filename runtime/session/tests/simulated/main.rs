@@ -11,6 +11,7 @@ mod journal;
 mod library;
 mod noise;
 mod payload;
+mod played;
 mod profiler;
 mod recorded;
 mod recording;

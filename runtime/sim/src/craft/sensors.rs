@@ -11,6 +11,7 @@ mod delay;
 mod dvl;
 mod fluorometer;
 mod onboard;
+mod played;
 mod positioning;
 mod pressure;
 mod sounder;
@@ -24,9 +25,11 @@ pub use compass::Compass;
 pub use ctd::Ctd;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
+pub use played::{Played, PlayedSample};
 pub use positioning::{Gps, Lbl, Navigation};
 pub use pressure::Pressure;
 pub use sounder::Sounder;
+pub(crate) use sounder::water_depth;
 pub use usbl::Usbl;
 
 use crate::craft::hull::Motion;
@@ -42,6 +45,7 @@ use clock::Clock;
 use ctd::CtdProbe;
 use fluorometer::ChemicalSensor;
 use onboard::OnboardNavigation;
+use played::Player;
 use pressure::PressureGauge;
 use serde::Deserialize;
 use sounder::EchoSounder;
@@ -79,6 +83,8 @@ pub struct InstrumentSetup {
     pub usbl: Option<Usbl>,
     /// What the vehicle tells of itself; none: nothing.
     pub abilities: Option<Abilities>,
+    /// What is told as it was recorded, whatever the instruments would tell.
+    pub played: Vec<Played>,
 }
 
 /// Whether a vehicle has an instrument: one that it may lack is an `Option`.
@@ -142,7 +148,8 @@ clauses! {
 impl InstrumentSetup {
     /// What a vehicle tells that has them.
     pub fn measurements(&self) -> Vec<Measurement> {
-        measurements::delivered(|clause| self.has(clause))
+        let is_played = |name: &str| self.played.iter().any(|played| played.name() == name);
+        measurements::delivered(|row| row.instrument.is_none_or(|clause| self.has(clause)) || is_played(row.name))
     }
 
     /// What of them cannot be.
@@ -150,6 +157,7 @@ impl InstrumentSetup {
         positioning::check(self, issues);
         fluorometer::check(self, issues);
         sounder::check(self, issues);
+        played::check(self, issues);
     }
 }
 
@@ -166,6 +174,7 @@ pub(crate) struct Instruments {
     clock: Option<Clock>,
     usbl: Option<UsblReceiver>,
     data_sheet: Option<DataSheet>,
+    player: Player,
 }
 
 impl Instruments {
@@ -182,6 +191,7 @@ impl Instruments {
             clock: setup.date.clone().map(Clock),
             usbl: setup.usbl.as_ref().map(|usbl| UsblReceiver::new(usbl, seed)),
             data_sheet: setup.abilities.clone().map(DataSheet),
+            player: Player::new(&setup.played),
         }
     }
 
@@ -211,6 +221,7 @@ impl Instruments {
         around.compass = self.navigation.compass(around.tick, around.truth.heading);
         around.believed = self.navigation.belief(around.truth.position);
         self.in_order().into_iter().for_each(|instrument| instrument.measure(around, snapshot));
+        self.player.play(around.tick, &mut snapshot.samples);
     }
 
     /// Where the vehicle believes to be when it is at a place.

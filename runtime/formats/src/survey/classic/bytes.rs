@@ -1,6 +1,6 @@
 //! The bytes of a header, taken one after another, never past the end.
 
-use crate::survey::fault::Fault;
+use crate::fault::Fault;
 
 /// A name has at most this many bytes: NC_MAX_NAME.
 const NAME_BYTES_MAX: u64 = 256;

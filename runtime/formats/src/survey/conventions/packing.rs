@@ -1,7 +1,7 @@
 //! What a stored number stands for: its scale and offset, and what of it is no data (NetCDF Users Guide, appendix A).
 
+use crate::fault::{Fault, counted, shortened};
 use crate::survey::classic::{Kind, Variable};
-use crate::survey::fault::{Fault, counted, shortened};
 
 /// How the numbers of a variable are stored.
 #[derive(Debug)]

@@ -1,9 +1,11 @@
 //! The cells of a table of what is recorded: numbers in the units that its head names. None begins with what a spreadsheet would compute.
 
-use albacore_geometry::{Heading, Point, TangentFrame};
+use albacore_geometry::{Heading, Point, TangentFrame, math};
 use albacore_program::{Input, Shape, calendar, number, senses};
 use albacore_vehicle::{Reading, measurements};
 
+/// The head of the column of times.
+pub const TIME: &str = "time (s)";
 /// Digits of a degree of latitude and longitude behind the point: a centimetre.
 const GLOBE_DECIMALS: u8 = 7;
 /// Digits of a metre of a position.
@@ -13,7 +15,7 @@ const PLACE_DECIMALS: u8 = 2;
 pub fn standing(has_utc: bool, on_globe: bool) -> String {
     let utc = if has_utc { ",utc" } else { "" };
     let globe = if on_globe { ",latitude (deg),longitude (deg)" } else { "" };
-    format!("time (s){utc},north (m),east (m){globe},depth (m)")
+    format!("{TIME}{utc},north (m),east (m){globe},depth (m)")
 }
 
 /// Adds the head of an input's columns; `labels` are those of its further fields. What stands beside every row is not told twice: of a
@@ -66,21 +68,37 @@ fn is_beside(name: &str) -> bool {
     [senses::POSITION, senses::DEPTH, measurements::name(measurements::UTC)].contains(&name)
 }
 
-fn names(line: &mut String, name: &str, shape: &Shape, on_globe: bool) {
-    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+/// The head of a column of one number: its name, and its unit if it has one.
+pub fn title(name: &str, shape: &Shape) -> String {
+    let unit = match shape {
+        Shape::Quantity(display) | Shape::Vector(display) => display.unit.as_str(),
+        Shape::Heading => "deg",
+        Shape::Depth | Shape::Altitude => "m",
+        _ => "",
+    };
+    if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") }
+}
+
+/// What a number of such a column is in SI units.
+pub fn in_si(number: f64, shape: &Shape) -> f64 {
     match shape {
-        Shape::Quantity(display) => put(line, &format!("{name}{}", unit(&display.unit))),
-        Shape::Heading => put(line, &format!("{name} (deg)")),
-        Shape::Depth | Shape::Altitude => put(line, &format!("{name} (m)")),
-        Shape::Vector(display) => {
-            ["north", "east"].iter().for_each(|axis| put(line, &format!("{name}.{axis}{}", unit(&display.unit))));
+        Shape::Quantity(display) => number * display.scale,
+        Shape::Heading => math::radians(number),
+        _ => number,
+    }
+}
+
+fn names(line: &mut String, name: &str, shape: &Shape, on_globe: bool) {
+    match shape {
+        Shape::Vector(_) => {
+            ["north", "east"].iter().for_each(|axis| put(line, &title(&format!("{name}.{axis}"), shape)));
         }
         Shape::Point => {
             ["north", "east"].iter().for_each(|axis| put(line, &format!("{name}.{axis} (m)")));
             let globe: &[&str] = if on_globe { &["latitude", "longitude"] } else { &[] };
             globe.iter().for_each(|axis| put(line, &format!("{name}.{axis} (deg)")));
         }
-        _ => put(line, name),
+        _ => put(line, &title(name, shape)),
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::filter::Filter;
 use super::{Fault, FaultKind, to_tick};
+use crate::craft::sensors::water_depth;
 use albacore_geometry::Vector;
-use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
+use albacore_vehicle::measurements::WATER_DEPTH;
 use albacore_vehicle::{Sample, TICK_S};
 
 /// What the vehicle itself suffers from in a tick: all that a hull and a computer need to know of faults.
@@ -110,10 +111,9 @@ fn filled(after: f64, within: f64) -> f64 {
     if after < within { (after / within).max(0.0) } else { f64::from(u8::from(after >= 0.0)) }
 }
 
-/// The depth of the water is the sum of what is told of depth and altitude in the same tick, and not told without both.
+/// The depth of the water as it is told with depth and altitude that fail.
 fn add_up(samples: &mut Vec<Sample>) {
-    let latest = |measurement| samples.iter().rev().find(|s| s.measurement == measurement).map(|s| s.reading[0]);
-    let sum = latest(DEPTH).zip(latest(ALTITUDE)).map(|(depth, altitude)| depth + altitude);
+    let sum = water_depth(samples);
     samples.retain_mut(|sample| match (sample.measurement, sum) {
         (WATER_DEPTH, Some(sum)) => {
             sample.reading[0] = sum;
@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use crate::craft::fault::{Sensor, SensorFault};
     use albacore_vehicle::Snapshot;
-    use albacore_vehicle::measurements::{FLOW, SPEED};
+    use albacore_vehicle::measurements::{ALTITUDE, DEPTH, FLOW, SPEED};
 
     fn fault(trouble: FaultKind, from: f64, to: Option<f64>) -> Fault {
         Fault { trouble, from, to }

@@ -4,9 +4,9 @@ use super::delay::Delay;
 use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
 use crate::scenario::{ScenarioIssues, number};
-use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
 use albacore_vehicle::rate::is_due;
+use albacore_vehicle::{Sample, Snapshot};
 use serde::Deserialize;
 
 /// The echo sounder: the height above the bottom, and with the vehicle's depth that of the water.
@@ -74,11 +74,16 @@ impl Instrument for EchoSounder {
     fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
         let Some(echo) = self.sample(around.tick, around.truth.altitude) else { return };
         snapshot.push(ALTITUDE, &[echo]);
-        let depth = snapshot.samples.iter().find(|sample| sample.measurement == DEPTH).map(|sample| sample.reading[0]);
-        if let Some(depth) = depth {
-            snapshot.push(WATER_DEPTH, &[depth + echo]);
+        if let Some(depth) = water_depth(&snapshot.samples) {
+            snapshot.push(WATER_DEPTH, &[depth]);
         }
     }
+}
+
+/// The depth of the water is the sum of what is told of depth and altitude in the same tick, and not told without both.
+pub fn water_depth(samples: &[Sample]) -> Option<f64> {
+    let latest = |measurement| samples.iter().rev().find(|s| s.measurement == measurement).map(|s| s.reading[0]);
+    latest(DEPTH).zip(latest(ALTITUDE)).map(|(depth, altitude)| depth + altitude)
 }
 
 /// What of it cannot be.

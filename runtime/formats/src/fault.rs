@@ -5,10 +5,6 @@ const KINDS_MAX: usize = 12;
 /// So many places of faults with one mend are named; of the others their number.
 const NAMED_MAX: u64 = 3;
 
-/// The mend of a grid that is too large.
-pub(crate) const CUT_IT: &str =
-    "cut out the part that is needed, such as with `ncks -d lat,10.,12. -d lon,140.,143. IN.nc OUT.nc`";
-
 /// So many characters of a file's own text stand in a message at most.
 const QUOTED_MAX: usize = 40;
 
@@ -60,7 +56,7 @@ impl Fault {
     }
 }
 
-/// Why no survey could be made of a file: one fault or more.
+/// Why a file could not be read: one fault or more.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", faults.iter().map(|f| format!("{}: {}", f.message, f.help)).collect::<Vec<_>>().join("; "))]
 pub struct Unreadable {

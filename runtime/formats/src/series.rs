@@ -1,0 +1,285 @@
+//! Numbers over time, a column of a table such as a run records:
+//!
+//! ```text
+//! time (s),depth (m),temperature (degC)
+//! 1.0,3.02,14.2
+//! 2.0,3.01,
+//! ```
+//!
+//! It is CSV as RFC 4180 has it, but that no cell goes over the end of its line. The head names the columns, each with its unit; the column
+//! that is asked for is read, and the others are passed over. Times rise. A cell without anything is no sample.
+
+use crate::fault::{Fault, Faults, Unreadable, counted, listed, shortened};
+
+/// Times are no nearer to each other than this, s: no instrument of ours is sampled faster.
+const APART_MIN_S: f64 = 1e-3;
+/// What a time in decimals may lose of that, as a share.
+const ROUNDING: f64 = 1e-6;
+/// No run lasts so long, s: a later time counts from another beginning than that of a run, such as that of 1970.
+const TIME_MAX_S: f64 = 3.6e7;
+/// A table has at most so many columns.
+const COLUMNS_MAX: usize = 1000;
+
+/// The columns that are read, by their heads.
+#[derive(Clone, Copy, Debug)]
+pub struct Columns<'a> {
+    /// That of the times, in seconds: `time (s)`.
+    pub time: &'a str,
+    /// That of the numbers, with their unit if they have one: `temperature (degC)`.
+    pub number: &'a str,
+}
+
+/// Reads the samples of a table, each its time in s and its number in the unit of its column, else tells all that is wrong. A number that
+/// cannot be is wrong.
+pub fn read(bytes: &[u8], columns: Columns, can_be: impl Fn(f64) -> bool) -> Result<Vec<(f64, f64)>, Unreadable> {
+    let mut faults = Faults::default();
+    let samples = read_into(bytes, columns, can_be, &mut faults).unwrap_or_default();
+    match faults.into_unreadable() {
+        None if samples.is_empty() => Err(Unreadable::of(columns.nothing())),
+        None => Ok(samples),
+        Some(unreadable) => Err(unreadable),
+    }
+}
+
+fn read_into(
+    bytes: &[u8],
+    columns: Columns,
+    can_be: impl Fn(f64) -> bool,
+    faults: &mut Faults,
+) -> Option<Vec<(f64, f64)>> {
+    let text = faults.take(text(bytes))?;
+    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    let Some((line, head)) = lines.next() else {
+        faults.add("the file is empty", columns.example());
+        return None;
+    };
+    let head = faults.take(cells(line, head))?;
+    let (time, number) = (columns.time_among(&head, line, faults), columns.number_among(&head, line, faults));
+    let (time, number) = (time?, number?);
+    let mut samples = Vec::new();
+    let mut before = None;
+    for (line, row) in lines {
+        let Some(row) = faults.take(cells(line, row).and_then(|row| whole(line, row, head.len()))) else { continue };
+        let Some(at) = faults.take(moment(line, &row[time], before)) else { continue };
+        before = Some(at);
+        if let Some(x) = faults.take(columns.sample(line, &row[number], &can_be)).flatten() {
+            samples.push((at, x));
+        }
+    }
+    Some(samples)
+}
+
+fn text(bytes: &[u8]) -> Result<&str, Fault> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        Fault::new(format!("line {line} is no text in UTF-8"), "save the table as CSV in UTF-8")
+    })?;
+    Ok(text.trim_start_matches('\u{feff}'))
+}
+
+/// The cells of a line, without blanks and quotes around them.
+fn cells(line: usize, row: &str) -> Result<Vec<String>, Fault> {
+    if row.matches(',').count() >= COLUMNS_MAX {
+        let help = "leave out columns that nothing reads";
+        return Err(Fault::new(format!("line {line} has more than {COLUMNS_MAX} cells"), help));
+    }
+    let mut cells = vec![String::new()];
+    let mut is_quoted = false;
+    let mut parts = row.split('"').enumerate().peekable();
+    while let Some((i, part)) = parts.next() {
+        // Parts behind an odd number of quotes stand within them, and two quotes within them are one of the cell's own.
+        is_quoted = i % 2 == 1;
+        if !is_quoted && part.is_empty() && i > 0 && parts.peek().is_some() {
+            cells.last_mut().into_iter().for_each(|cell| cell.push('"'));
+        }
+        let mut pieces = if is_quoted { vec![part] } else { part.split(',').collect() }.into_iter();
+        if let (Some(cell), Some(first)) = (cells.last_mut(), pieces.next()) {
+            cell.push_str(first);
+        }
+        cells.extend(pieces.map(str::to_string));
+    }
+    if is_quoted {
+        return Err(Fault::new(format!("line {line} has a quote that does not close"), "close it on the same line"));
+    }
+    cells.iter_mut().for_each(|cell| *cell = cell.trim().to_string());
+    Ok(cells)
+}
+
+/// A row, if it has as many cells as the head.
+fn whole(line: usize, row: Vec<String>, columns: usize) -> Result<Vec<String>, Fault> {
+    if row.len() == columns {
+        return Ok(row);
+    }
+    let message = format!("line {line} has {}, and the head {columns}", counted(row.len() as u64, "cell"));
+    Err(Fault::new(message, "give each row a cell for each column; where nothing was sensed it is empty"))
+}
+
+/// The time of a row, which is later than the one before.
+fn moment(line: usize, cell: &str, before: Option<f64>) -> Result<f64, Fault> {
+    let is_time = |at: &f64| (0.0..=TIME_MAX_S).contains(at);
+    let Some(at) = cell.parse().ok().filter(is_time) else {
+        let message = format!("line {line}: `{}` is no time of a run", shortened(cell));
+        return Err(Fault::new(message, "write seconds from the beginning of the run, such as `12.5`"));
+    };
+    match before {
+        Some(before) if at <= before => {
+            let message = format!("line {line}: {at} s is not later than {before} s of the row before");
+            Err(Fault::new(message, "sort the rows by their times, and leave out those that stand twice"))
+        }
+        Some(before) if at - before < APART_MIN_S * (1.0 - ROUNDING) => {
+            let message = format!("line {line}: {at} s is less than {APART_MIN_S} s later than the row before");
+            Err(Fault::new(message, "leave out some of the rows: nothing is sampled faster than 1000 Hz"))
+        }
+        _ => Ok(at),
+    }
+}
+
+impl Columns<'_> {
+    /// What is measured, without its unit.
+    fn name(&self) -> &str {
+        self.number.split(" (").next().unwrap_or_default()
+    }
+
+    /// A head that has both, for who has none.
+    fn example(&self) -> String {
+        format!("begin it with a head such as `{},{}`, as `record {}` writes it", self.time, self.number, self.name())
+    }
+
+    fn nothing(&self) -> Fault {
+        let help = "give it rows, each with a time and a number, or leave the clause out";
+        Fault::new(format!("no row holds a sample of `{}`", self.name()), help)
+    }
+
+    fn time_among(&self, head: &[String], line: usize, faults: &mut Faults) -> Option<usize> {
+        faults.take(place(head, self.time, line).and_then(|place| {
+            let help = "give each row its time in seconds from the beginning of the run";
+            place.ok_or_else(|| Fault::new(format!("line {line} names no column `{}`", self.time), help))
+        }))
+    }
+
+    fn number_among(&self, head: &[String], line: usize, faults: &mut Faults) -> Option<usize> {
+        let (name, own) = (self.name(), self.number);
+        let missing = || match head.iter().find(|other| other.split(['(', ' ']).next() == Some(name)) {
+            Some(other) => {
+                let message = format!("line {line}: `{}` is not in the unit of `{own}`", shortened(other));
+                Fault::new(message, format!("convert its numbers, and call it `{own}`"))
+            }
+            None => {
+                let message = format!("line {line} names no column `{own}`");
+                let others = listed(head.iter().map(String::as_str));
+                Fault::new(message, format!("call it so; the file has {others}"))
+            }
+        };
+        faults.take(place(head, own, line).and_then(|place| place.ok_or_else(missing)))
+    }
+
+    /// The sample of a cell, if there is one in it.
+    fn sample(&self, line: usize, cell: &str, can_be: impl Fn(f64) -> bool) -> Result<Option<f64>, Fault> {
+        if cell.is_empty() {
+            return Ok(None);
+        }
+        match cell.parse::<f64>() {
+            Ok(x) if can_be(x) => Ok(Some(x)),
+            Ok(_) => Err(Fault::new(
+                format!("line {line}: no `{}` is {}", self.number, shortened(cell)),
+                "correct it, or leave the cell empty: then no sample comes",
+            )),
+            Err(_) => Err(Fault::new(
+                format!("line {line}: `{}` is no number", shortened(cell)),
+                "write it with a point, such as `12.5`, or leave the cell empty: then no sample comes",
+            )),
+        }
+    }
+}
+
+/// Where a column stands, if it is there.
+fn place(head: &[String], name: &str, line: usize) -> Result<Option<usize>, Fault> {
+    let mut places = head.iter().enumerate().filter(|(_, cell)| *cell == name).map(|(place, _)| place);
+    let first = places.next();
+    match places.next() {
+        None => Ok(first),
+        Some(_) => Err(Fault::new(format!("line {line} names `{name}` twice"), "leave one of the columns out")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COLUMNS: Columns = Columns { time: "time (s)", number: "temperature (degC)" };
+
+    fn read(text: &str) -> Result<Vec<(f64, f64)>, Vec<String>> {
+        let told = |unreadable: Unreadable| unreadable.faults.into_iter().map(|fault| fault.message).collect();
+        super::read(text.as_bytes(), COLUMNS, |x| (-5.0..=50.0).contains(&x)).map_err(told)
+    }
+
+    #[test]
+    fn one_column_is_read_whatever_stands_beside_it() {
+        let text = "\u{feff}time (s), \"remark, \"\"ours\"\"\",temperature (degC)\r\n0.0,\"a, b\",12.5\r\n\r\n0.1,,\r\n2,\"\",1.3e1\r\n";
+        assert_eq!(read(text).unwrap(), [(0.0, 12.5), (2.0, 13.0)]);
+        assert_eq!(cells(1, "\"a, \"\"b\"\"\",,\"\", c ").unwrap(), ["a, \"b\"", "", "", "c"]);
+        assert_eq!(read("temperature (degC),time (s)\n7,0.001\n8,0.002").unwrap(), [(0.001, 7.0), (0.002, 8.0)]);
+    }
+
+    #[test]
+    fn all_that_is_wrong_is_told_with_its_line() {
+        let rows = |rows: &str| read(&format!("time (s),temperature (degC)\n{rows}")).unwrap_err();
+        assert_eq!(rows("0,1\n0,1"), ["line 3: 0 s is not later than 0 s of the row before"]);
+        assert_eq!(rows("1,1\n\n1.0005,1"), ["line 4: 1.0005 s is less than 0.001 s later than the row before"]);
+        assert_eq!(
+            rows("-1,1\n,1\nnan,1\n1.7e9,1\n1,1"),
+            [
+                "line 2: `-1` is no time of a run; line 3: `` is no time of a run; line 4: `nan` is no time of a run; and 1 more such"
+            ]
+        );
+        assert_eq!(
+            rows("0,400\n1,inf"),
+            ["line 2: no `temperature (degC)` is 400; line 3: no `temperature (degC)` is inf"]
+        );
+        assert_eq!(
+            rows("0,mild\n1\n2,\"3"),
+            [
+                "line 2: `mild` is no number",
+                "line 3 has 1 cell, and the head 2",
+                "line 4 has a quote that does not close"
+            ]
+        );
+        assert_eq!(rows(&",".repeat(2000)), ["line 2 has more than 1000 cells"]);
+        assert_eq!(rows("0,\n1,"), ["no row holds a sample of `temperature`"]);
+    }
+
+    #[test]
+    fn a_head_has_both_columns_each_once_and_in_its_unit() {
+        assert_eq!(read("").unwrap_err(), ["the file is empty"]);
+        let head = |head: &str| read(&format!("{head}\n0,1,1\n")).unwrap_err();
+        assert_eq!(head("time (min),temperature (degC),x"), ["line 1 names no column `time (s)`"]);
+        assert_eq!(
+            head("time (s),temperature (K),x"),
+            ["line 1: `temperature (K)` is not in the unit of `temperature (degC)`"]
+        );
+        assert_eq!(
+            head("time (s),temperature,x"),
+            ["line 1: `temperature` is not in the unit of `temperature (degC)`"]
+        );
+        assert_eq!(head("time (s),salinity (psu),x"), ["line 1 names no column `temperature (degC)`"]);
+        assert_eq!(head("time (s),temperature (degC),temperature (degC)"), ["line 1 names `temperature (degC)` twice"]);
+        assert_eq!(
+            head("time;temperature"),
+            ["line 1 names no column `time (s)`", "line 1 names no column `temperature (degC)`"]
+        );
+    }
+
+    /// Whatever the bytes are, reading them ends in samples or in what is wrong.
+    #[test]
+    fn no_bytes_are_too_strange() {
+        let whole = b"time (s),temperature (degC)\n0.0,\"12.5\"\n1.0,13\n";
+        for at in 0..whole.len() {
+            for byte in [0, b'"', b',', b'\n', b'-', 0xff] {
+                let mut bytes = whole.to_vec();
+                bytes[at] = byte;
+                let _ = super::read(&bytes, COLUMNS, f64::is_finite);
+                let _ = super::read(&bytes[..at], COLUMNS, f64::is_finite);
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! What one run recorded is played in another, which then records the same.
+
+#![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
+
+use crate::sink::Sink;
+use albacore_session::{Faults, PastRun, Plan, RECORDED, Run, Source, load_text, run_test};
+use std::path::{Path, PathBuf};
+
+/// All that can be recorded and played, but for what the vehicle tells of itself.
+const PLAYED: [&str; 9] =
+    ["chemical", "temperature", "salinity", "battery", "depth", "altitude", "speed", "heading", "course"];
+const MISSION: &str = "mission north in w within 10 min {
+    area op = rectangle(center: point(0 m, 0 m), along: 0 deg, length: 400 m, width: 400 m)
+    requires { position, heading, course fresh 5 s, else abort }
+    recovery within 1 min { wait for 1 s }
+    record chemical, temperature, salinity, battery, depth, altitude, speed, heading, course at 1 Hz
+    with speed 1.5 m/s
+    steer 10 deg at depth 6 m for 1 min
+}
+";
+/// A sea in which each of them goes up and down.
+const SEA: &str = "still_water with {
+    vehicle(kinematic, start: point(-60 m, 0 m))
+    bottom(from: 10 m, to: 20 m, toward: 0 deg)
+    flow(10 cm/s toward 180 deg)
+    region(area: rectangle(center: point(0 m, 0 m), along: 0 deg, length: 300 m, width: 100 m))
+    plume()
+    source(\"dye\", at: point(0 m, 0 m))
+    stratification(surface: 18 degC, bottom: 9 degC, surface_salinity: 31 psu, bottom_salinity: 35 psu, thermocline: 4 m)
+    ctd(temperature_noise: 0.1 degC, salinity_noise: 0.1 psu)
+    fluorometer(noise: 1 %)
+    compass(noise: 1 deg)
+    pressure(noise: 5 cm)
+    sounder(noise: 5 cm, dropouts: 20 %)
+    dvl(noise: 2 cm/s)
+    battery(noise: 1 %)
+}";
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("played").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("albacore.toml"), "").unwrap();
+    folder
+}
+
+fn plan(folder: &Path, world: &str) -> Plan {
+    let text = format!("{MISSION}scenario w = {world}\n");
+    let script = load_text(Source { name: folder.join("script.alb").display().to_string().into(), text: text.into() });
+    assert!(script.is_sound(), "{:#?}", script.findings);
+    Plan::new(&script, "script.alb", None, None).unwrap()
+}
+
+/// What a run records.
+fn recorded(plan: &Plan) -> String {
+    let mut run = Run::new(plan, 1).unwrap();
+    run.to_end();
+    run.file(&RECORDED)
+}
+
+/// A column of a table by what it is of: each cell, the head first.
+fn column<'a>(table: &'a str, name: &str) -> Vec<&'a str> {
+    let is_of = |head: &str| head.split(" (").next() == Some(name);
+    let place = table.lines().next().unwrap().split(',').position(is_of).unwrap();
+    table.lines().map(|line| line.split(',').nth(place).unwrap()).collect()
+}
+
+/// Still water, where nothing is as it was, and clauses that play it all.
+fn playing(more: &str) -> String {
+    let clauses: String = PLAYED.map(|name| format!("    played(\"{name}\", file: \"dive.csv\")\n")).concat();
+    format!("still_water with {{\n{clauses}{more}\n}}")
+}
+
+#[test]
+fn what_was_recorded_is_recorded_again_when_it_is_played() {
+    let folder = folder("again");
+    let before = recorded(&plan(&folder, SEA));
+    assert!(before.lines().count() > 55, "{before}");
+    std::fs::write(folder.join("dive.csv"), &before).unwrap();
+    let plan = plan(&folder, &playing(""));
+    assert_eq!(plan.sources.last().unwrap().name, "dive.csv", "no campaign goes on with another file");
+    let again = recorded(&plan);
+    for name in std::iter::once("time").chain(PLAYED) {
+        let (before, again) = (column(&before, name), column(&again, name));
+        let differs = before.iter().zip(&again).find(|(before, again)| before != again);
+        assert_eq!((differs, before.len()), (None, again.len()), "{name}");
+        let told: std::collections::BTreeSet<&&str> = before.iter().skip(1).filter(|cell| !cell.is_empty()).collect();
+        assert!(told.len() > 1, "{name}: nothing is shown by what never changes: {told:?}");
+    }
+}
+
+/// A fault acts on what is played, and a journal of it gives the same again, without the file.
+#[test]
+fn what_is_played_fails_as_what_is_sensed_does() {
+    let folder = folder("fails");
+    std::fs::write(folder.join("dive.csv"), recorded(&plan(&folder, SEA))).unwrap();
+    let plan = plan(&folder, &playing("fault(chemical, off, from: 20 s, to: 30 s)"));
+    let sink = Sink::default();
+    let mut run = Run::new(&plan, 1).unwrap();
+    run.with_journal(Box::new(sink.clone()), &[]);
+    run.to_end();
+    let table = run.file(&RECORDED);
+    let silent = column(&table, "time").into_iter().zip(column(&table, "chemical")).filter(|(_, cell)| cell.is_empty());
+    let times: Vec<f64> = silent.map(|(time, _)| time.parse().unwrap()).collect();
+    assert_eq!(times, (20..30).map(f64::from).collect::<Vec<_>>());
+    std::fs::remove_file(folder.join("dive.csv")).unwrap();
+    assert_eq!(PastRun::read(&plan, &sink.bytes()).unwrap().file(&RECORDED), table);
+}
+
+/// The vehicle swims by the sensors that it has, and a test asks for what is so.
+#[test]
+fn the_truth_is_as_ever() {
+    let folder = folder("truth");
+    let rows: String = (0..=60).map(|second| format!("{second},1\n")).collect();
+    std::fs::write(folder.join("dive.csv"), format!("time (s),depth (m)\n{rows}")).unwrap();
+    let world = "still_water with { played(\"depth\", file: \"dive.csv\"); ctd() }";
+    let table = recorded(&plan(&folder, world));
+    assert!(column(&table, "depth").iter().skip(1).all(|cell| *cell == "1"), "{table}");
+    let test = "test \"deep\" {\n run north in w seeds 1..1\n expect truth.depth > 5.9 m\n}\n";
+    let name = folder.join("script.alb").display().to_string();
+    let script = load_text(Source { name: name.into(), text: format!("{MISSION}scenario w = {world}\n{test}").into() });
+    let test = script.tests().pop().unwrap().unwrap();
+    let result = run_test(&script, &test, &Faults::default());
+    let Ok(result) = result else { unreachable!("its test cannot be run") };
+    assert!(result.failures.is_empty(), "{:#?}", result.failures);
+}
+
+#[test]
+fn a_campaign_knows_a_file_by_what_it_holds() {
+    let folder = folder("digest");
+    let digest = |number: &str| {
+        std::fs::write(folder.join("dive.csv"), format!("time (s),temperature (degC)\n1,{number}\n")).unwrap();
+        plan(&folder, "still_water with { played(\"temperature\", file: \"dive.csv\"); ctd() }").sources.pop().unwrap()
+    };
+    assert_ne!(digest("12"), digest("13"));
+    assert_eq!(digest("12"), digest("12"));
+}
