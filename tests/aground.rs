@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_lang::source::Source;
-use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults, load_text};
+use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults, load_text, run_test};
 use std::path::Path;
 
 const LIMITS: &str = "tests/aground/limits.alb";
@@ -366,4 +366,26 @@ fn garbage_is_never_taken_for_a_depth() {
         let mut run = Run::new(&plan.with_faults(&faults).unwrap(), seed).unwrap();
         assert_eq!(run.to_end(), Outcome::Completed, "seed {seed}:\n{}", run.trace());
     }
+}
+
+/// What the tests of a script expect.
+#[track_caller]
+fn holds(path: &str) {
+    let script = load(Path::new(path), None, &[]).unwrap();
+    for test in script.tests() {
+        let result = run_test(&script, &test.unwrap(), &Faults::default()).unwrap();
+        assert!(result.failures.is_empty(), "{:#?}", result.failures);
+    }
+}
+
+/// An attack: a guest was aborted in its first tick for the time that its vehicle had lain on the bottom by a plan of its own.
+#[test]
+fn a_guest_is_not_charged_with_its_vehicles_own_grounding() {
+    holds("tests/aground/guest.alb");
+}
+
+/// An attack: it passed its depth by more than was said.
+#[test]
+fn a_vehicle_that_is_suspended_under_way_passes_its_depth_by_some_metres() {
+    holds("tests/aground/suspended.alb");
 }

@@ -14,10 +14,10 @@ const TOUCHED_MAX_S: f64 = 10.0;
 /// What is known of the vehicle on the bottom.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Aground {
-    /// Since which tick it has lain there.
+    /// Since which tick it has lain there, and since which with the mission driving.
     since: Option<u64>,
-    /// For how many ticks it has lain there in all, and for how many of these the mission drove.
-    ticks: u64,
+    driven_since: Option<u64>,
+    /// For how many ticks it has lain there while the mission drove: what it does by a plan of its own is no mission's fault.
     driven: u64,
     /// The least depth at which it has lain, m.
     depth: Option<f64>,
@@ -26,9 +26,11 @@ pub(crate) struct Aground {
 impl Run {
     /// Takes in whether the vehicle lies on the bottom.
     pub fn feel_bottom(&mut self, aground: bool) {
-        let since = aground.then(|| self.state.aground.since.unwrap_or(self.state.tick));
-        self.state.aground.since = since;
-        self.state.aground.ticks += u64::from(aground);
+        let tick = self.state.tick;
+        let since = |of: Option<u64>, lies: bool| lies.then(|| of.unwrap_or(tick));
+        let Aground { since: lain, driven_since, .. } = self.state.aground;
+        self.state.aground.since = since(lain, aground);
+        self.state.aground.driven_since = since(driven_since, aground && self.drives());
         self.state.aground.driven += u64::from(aground && self.drives());
         if aground {
             let depth = self.depth();
@@ -43,7 +45,7 @@ impl Run {
     }
 
     fn lain_s(&self) -> f64 {
-        self.state.aground.since.map_or(0.0, |since| self.state.tick.saturating_sub(since) as f64 * TICK_S)
+        self.state.aground.driven_since.map_or(0.0, |since| self.state.tick.saturating_sub(since) as f64 * TICK_S)
     }
 
     /// Whether the vehicle that we drive has lain on the bottom for too long: what the mission asks for does not free it.
@@ -67,12 +69,12 @@ impl Run {
     }
 
     fn why_aground(&self, outcome: Outcome) -> Option<&'static str> {
-        let Aground { since, ticks, .. } = self.state.aground;
+        let Aground { since, driven, .. } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
                 Some("the vehicle lies on the bottom")
             }
-            Outcome::Completed if ticks as f64 * TICK_S >= TOUCHED_MAX_S => Some("the vehicle has lain on the bottom"),
+            Outcome::Completed if driven as f64 * TICK_S >= TOUCHED_MAX_S => Some("the vehicle has lain on the bottom"),
             _ => None,
         }
     }
