@@ -112,6 +112,9 @@ impl<'t> Checker<'t> {
             self.report(finding.help("the largest is about 1e150"));
             return self.unknown(span);
         }
+        if unit.is_none() && !is_counted && !self.sensible_quantity(value, span) {
+            return self.unknown(span);
+        }
         if unit.is_none() && !can_be_counted {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
