@@ -67,10 +67,21 @@ fn declaration(text: &mut String, d: &Declaration, home: usize, names: &Names, w
     if let Some(terms) = &d.terms {
         code(text, "alb", terms);
     }
+    let base = base(d);
+    if let Some(base) = base {
+        paragraph(
+            text,
+            &format!(
+                "Parameters, signals, memories and behaviors that are not named here are those of {}.",
+                ty(base, home, names)
+            ),
+        );
+    }
     if d.behaviors.iter().all(|behavior| behavior.text.is_empty()) {
         let listed: Vec<String> = d.behaviors.iter().map(|behavior| format!("`{}`", behavior.name)).collect();
         if !listed.is_empty() {
-            paragraph(text, &format!("Its behaviors are {}.", listed.join(", ")));
+            let own = if base.is_some() { "own " } else { "" };
+            paragraph(text, &format!("Its {own}behaviors are {}.", listed.join(", ")));
         }
     } else {
         text.push_str("\n| behavior | what it is |\n|---|---|\n");
@@ -84,6 +95,12 @@ fn declaration(text: &mut String, d: &Declaration, home: usize, names: &Names, w
         }
         code(text, "alb", table);
     }
+}
+
+/// The strategy that one is derived from: `= cpt_2005 with`.
+fn base(d: &Declaration) -> Option<&str> {
+    let (_, of) = d.written.rsplit_once("= ").filter(|_| d.word == "strategy")?;
+    of.trim_end().strip_suffix(" with")
 }
 
 fn parameters(text: &mut String, params: &[Param], home: usize, names: &Names, hidden: &[&str]) {

@@ -107,11 +107,11 @@ impl<'t> Checker<'t> {
         };
         Some(match (&value.ty, wanted) {
             (Type::Optional(inner), w) if **inner == *w && Self::is_quotient(value) => {
-                "when the divisor is zero there is no quotient: write `… else VALUE`, or test it with `if` before"
+                "when the divisor is zero there is no quotient: write `(… else VALUE)`, or test it with `if` before"
                     .into()
             }
             (Type::Optional(inner), w) if **inner == *w => {
-                "it may be absent: write `… else VALUE`, or test it with `if` before".into()
+                "it may be absent: write `(… else VALUE)`, or test it with `if` before".into()
             }
             (Type::Quantity(_), Type::Heading) if value.ty.dimension() == Some(Dimension::ANGLE) => {
                 "an angle is measured from something: write `HEADING + ANGLE`, such as `north + x`".into()

@@ -112,16 +112,16 @@ impl<'t> Checker<'t> {
             self.report(finding.help("the largest is about 1e150"));
             return self.unknown(span);
         }
-        if unit.is_none() && !is_counted && !self.sensible_quantity(value, span) {
-            return self.unknown(span);
-        }
         if unit.is_none() && !can_be_counted {
-            self.report(
-                Diagnostic::error(Code::TypesNumber, span, "this whole number is too large to be counted exactly")
-                    .help(format!(
-                        "whole numbers go to {INT_MAX}; a quantity has a unit, and large ones a large unit: `3 km`"
-                    )),
-            );
+            let what = if is_counted {
+                "whole number is too large to be counted exactly"
+            } else {
+                "number is too large to be meant"
+            };
+            let finding = Diagnostic::error(Code::TypesNumber, span, format!("this {what}"));
+            self.report(finding.help(format!(
+                "numbers without a unit go to {INT_MAX}; a quantity has one, and large ones a large unit: `3 km`"
+            )));
             return self.unknown(span);
         }
         if unit.is_none() && whole.is_none() && value.fract() == 0.0 {

@@ -94,7 +94,7 @@ impl<'t> Checker<'t> {
         };
         Diagnostic::error(Code::AbsentUsed, value.span, format!("this is {}: {why}", article(&name)))
             .here(format!("`{name}`"))
-            .help("write `… else VALUE`, or test it first: `let x = …` then `if x { … }`")
+            .help("write `(… else VALUE)`, or test it first: `let x = …` then `if x { … }`")
     }
 
     fn logical(&mut self, op: &Spanned<Binary>, left: &tree::Expr, right: &tree::Expr, span: Span) -> Expr {

@@ -155,7 +155,7 @@ impl<'t> Checker<'t> {
         if !sensible {
             self.report(
                 Diagnostic::error(Code::TypesNumber, span, "this is too large to be meant")
-                    .help(format!("numbers go to {QUANTITY_MAX:e}, and quantities to as much in metres, seconds and what they make")),
+                    .help(format!("quantities go to {QUANTITY_MAX:e} in metres, seconds and what they make")),
             );
         }
         sensible

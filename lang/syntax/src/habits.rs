@@ -114,6 +114,9 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
             help: format!("write `report \"{next}\": {value}`"),
         });
     }
+    if first == "expect" && last == "never" {
+        return only("write `expect always not (…)`");
+    }
     if first == "run" && !(before.contains(" in ") && before.contains(" seeds ")) {
         return only("write `run MISSION in SCENARIO seeds 1..20`");
     }
@@ -149,7 +152,9 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         ("record", _, "every") => "how often is a rate: `record temperature at 0.1 Hz` is every ten seconds",
         ("record", _, "") if rest.starts_with('.') => "an input is recorded whole: with all that it tells",
         ("record", last, "") if last != "at" => "say how often: `record temperature, salinity at 1 Hz`",
-        ("for", _, "") if rest.starts_with(',') => "a loop names one value: `for x in LIST { … }`",
+        ("for", _, "") if rest.starts_with(',') => {
+            "a loop names one value, `for x in LIST { … }`, and of a map its place too: `for x at place in MAP { … }`"
+        }
         ("wait" | "hold" | "keep" | "steer" | "goto" | "loiter", _, "while") => {
             "what lasts while X holds ends when it does not: `until not (X)`"
         }
