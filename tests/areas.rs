@@ -60,6 +60,13 @@ fn harbour(corners: u32) -> String {
     format!("{{\"type\": \"Polygon\", \"coordinates\": [[{}]]}}", ring.join(", "))
 }
 
+/// An attack: cages with sharp corners and with slots let vehicles out, and a vehicle that was told to turn away from a zone turned through it.
+#[test]
+fn corners_slots_and_turns_are_kept() {
+    let (status, told) = albacore(Path::new("tests/areas"), &["test", "corners.alb"]);
+    assert!(status == Some(0) && told.contains("3 passed"), "{told}");
+}
+
 #[test]
 fn a_search_stays_in_an_area_of_hundreds_of_corners_with_dents() {
     let folder = project("harbour");
