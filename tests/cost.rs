@@ -45,9 +45,10 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 /// What takes about a second where its cost grows with the script takes this long and much longer where it grows with its square, s.
 const TIME: u32 = 10;
 
-/// Where the script of a test is while that runs.
+/// Where the script of a test is while that runs: tests run beside one another, and two may have the same name for it.
 fn file_of(name: &str) -> PathBuf {
-    std::env::temp_dir().join(format!("albacore-{}-{name}.alb", std::process::id()))
+    let test = std::thread::current().name().unwrap_or_default().replace(':', "-");
+    std::env::temp_dir().join(format!("albacore-{}-{test}-{name}.alb", std::process::id()))
 }
 
 /// Runs `albacore` on a script. It is ended, and the test fails, once it has computed for TIME: its own time, however busy
