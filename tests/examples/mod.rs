@@ -3,7 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_session::{Script, Severity, load};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 /// What a body of statements stands in: a mission that knows its position and has its setpoints.
 const BEFORE: &str = "\
@@ -18,6 +20,9 @@ mission example in calm within 1 h {
     recovery within 1 min { goto op.center }
     with depth 3 m, speed 1 m/s
 ";
+
+/// The folders that have their files.
+static READY: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// What is no fault of an example: it shows one thing, and reads little of what it declares and of what stands around it.
 pub const OF_A_FRAGMENT: [&str; 2] = ["names::unused", "missions::unread"];
@@ -62,11 +67,14 @@ pub fn examples(page: &str) -> Vec<Example> {
     examples
 }
 
-/// A folder for examples, with the files of data that they name.
+/// A folder for examples, with the files of data that they name: written once, for tests beside one another read them.
 pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("dive_12.csv"), include_str!("dive_12.csv")).unwrap();
+    let mut ready = READY.lock().unwrap();
+    if ready.insert(folder.clone()) {
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("dive_12.csv"), include_str!("dive_12.csv")).unwrap();
+    }
     folder
 }
 
