@@ -29,7 +29,7 @@ impl<'a> Lowering<'a> {
             unit.claims[first..].iter_mut().for_each(|claim| claim.is_param = var.kind == VarKind::Param);
             match var.ty {
                 Type::List(..) => unit.lists.push((slot, self.words(&var.ty))),
-                Type::Map(..) => unit.lists.push((slot + GRID_WORDS, self.words(&var.ty) - GRID_WORDS)),
+                Type::Map(..) => unit.lists.push((slot.saturating_add(GRID_WORDS), self.words(&var.ty) - GRID_WORDS)),
                 _ => {}
             }
             if matches!(var.kind, VarKind::Param | VarKind::Signal | VarKind::Let | VarKind::Loop) {
@@ -69,7 +69,7 @@ impl<'a> Lowering<'a> {
             Type::Int => out.push(whole(Interval::INT)),
             Type::Sign => out.push(whole(Interval::SIGN)),
             Type::List(_, capacity) => out.push(whole(counted(*capacity))),
-            Type::Map(_, cells) => out.push(Claim { slot: slot + GRID_WORDS, ..whole(counted(*cells)) }),
+            Type::Map(_, cells) => out.push(Claim { slot: slot.saturating_add(GRID_WORDS), ..whole(counted(*cells)) }),
             Type::Optional(inner) if present.is_none() => self.claims_of(inner, slot + 1, Some(slot), out),
             Type::Record(id) => {
                 let mut at = slot;

@@ -37,7 +37,7 @@ impl<'a> Lowering<'a> {
             StmtKind::Replace(var, index, e) => {
                 let (list, words) = (self.frame.vars[*var], self.words(&e.ty));
                 let (list, index) = match self.vars[*var].ty {
-                    Type::Map(..) => (list + GRID_WORDS, self.cell_of(list, index)),
+                    Type::Map(..) => (list.saturating_add(GRID_WORDS), self.cell_of(list, index)),
                     _ => (list, self.expr(index)),
                 };
                 let item = self.expr(e);

@@ -15,13 +15,18 @@ const LOOK_ALIKES: [(&str, &str); 3] = [
 
 /// What changes how a script looks and not what it means, in comments and texts too: controls of the direction of writing,
 /// marks without width, letters without a shape, control codes.
+#[inline]
 pub(super) fn deceives(c: char) -> bool {
-    is_unseen(c) && !matches!(c, '\n' | '\r' | '\t')
+    // Nearly all of a script is printable ASCII, of which nothing is unseen.
+    !(' '..='~').contains(&c) && is_unseen(c) && !matches!(c, '\n' | '\r' | '\t')
 }
 
 /// A source whose lines all end in a line feed, each byte where it was, and the first place that had to be changed: a
 /// carriage return without a line feed after it. Many editors show it as the end of a line, and no comment would end there.
 pub(super) fn with_line_feeds(source: &str) -> (Cow<'_, str>, Option<usize>) {
+    if !source.contains('\r') {
+        return (Cow::Borrowed(source), None);
+    }
     let bytes = source.as_bytes();
     let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
     let Some(first) = (0..bytes.len()).find(|&at| is_lone(at)) else { return (Cow::Borrowed(source), None) };
