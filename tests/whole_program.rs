@@ -85,6 +85,12 @@ fn a_mission_that_does_not_end_well_ends_with_1() {
     ends_with(&["run", "tests/rules/11_abort.alb", "--no-out"], 1, "");
 }
 
+/// An attack: 9 of these 60 runs were aborted for want of a fresh position.
+#[test]
+fn satellite_fixes_that_scatter_end_no_mission() {
+    ends_with(&["test", "tests/whole_program/fixes_that_scatter.alb"], 0, "");
+}
+
 #[test]
 fn a_vehicle_that_leaves_in_the_recovery_is_told_as_that() {
     let output = albacore(&["run", "tests/whole_program/left_in_recovery.alb", "--json", "--no-out"]);
