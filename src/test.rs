@@ -39,6 +39,8 @@ struct Count {
     passed: usize,
     failed: usize,
     left_out: usize,
+    /// Whether a snapshot could not be written.
+    unwritten: bool,
 }
 
 impl Test {
@@ -93,6 +95,7 @@ impl Test {
         let left_out = if count.left_out > 0 { format!(", {} left out", count.left_out) } else { String::new() };
         say(&format!("{} passed, {} failed{left_out}", count.passed, count.failed));
         match exit {
+            Exit::Well if count.unwritten => Exit::Failed,
             Exit::Well if count.failed > 0 => Exit::NotWell,
             Exit::Well if count.passed == 0 => {
                 let help = "let the fault begin while the mission lasts, and add an `expect` that holds with it, too";
@@ -132,7 +135,7 @@ impl Test {
                     return Err(Exit::Usage);
                 }
             };
-            let problems = self.problems(at, &result, faults);
+            let problems = self.problems(at, &result, faults, count);
             let rows = if result.rows > 1 { format!(" of {} rows", result.rows) } else { String::new() };
             let (place, (first, last)) = (at.place(&result.place), result.seeds);
             let seeds = format!("seeds {first}..{last}{rows}");
@@ -161,7 +164,13 @@ impl Test {
     }
 
     /// What is wrong with what became of a test, in lines.
-    fn problems(&self, at: &Named, result: &TestResult, faults: &albacore_session::Faults) -> Vec<String> {
+    fn problems(
+        &self,
+        at: &Named,
+        result: &TestResult,
+        faults: &albacore_session::Faults,
+        count: &mut Count,
+    ) -> Vec<String> {
         let mut problems = failed_runs(result);
         problems.extend(result.failures.iter().flat_map(|failure| told(at, failure)));
         // A snapshot is of a run in which only the scenario's own faults were.
@@ -175,9 +184,42 @@ impl Test {
         }
         let fails = !problems.is_empty();
         for (run, trace) in traces {
-            problems.extend(self.compare(at.path, result, run, trace, fails));
+            problems.extend(match self.accept {
+                true => self.accept(at.path, result, run, trace, count),
+                false => self.compare(at.path, result, run, trace, fails),
+            });
         }
         problems
+    }
+
+    /// Makes a trace the snapshot; gives why that cannot be, in lines.
+    fn accept(&self, script: &Path, result: &TestResult, run: &TestRun, trace: &str, count: &mut Count) -> Vec<String> {
+        let file = snapshot_file(script, result, run);
+        let stored = match stored(&file, trace) {
+            Ok(stored) => stored,
+            Err(error) => return vec![format!("        `{}` is there already, and {error}", file.display())],
+        };
+        if stored.as_deref().is_some_and(|stored| is_same(stored, trace)) {
+            return Vec::new();
+        }
+        if let Some(line) = foreign(stored.as_deref()) {
+            return vec![
+                format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
+                THEIRS.to_string(),
+            ];
+        }
+        let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
+        match made.and_then(|()| disk::rewrite(&file, stored.as_deref(), trace)) {
+            Ok(others) => {
+                say(&format!("        wrote {}", file.display()));
+                message::parted(&file, others);
+                Vec::new()
+            }
+            Err(error) => {
+                count.unwritten = true;
+                vec![format!("        {}", not_written(&file, &error))]
+            }
+        }
     }
 
     /// Compares a trace with its snapshot, of a test that `fails` or does not; gives what is wrong, in lines.
@@ -185,34 +227,12 @@ impl Test {
         let file = snapshot_file(script, result, run);
         let stored = match stored(&file, trace) {
             Ok(stored) => stored,
-            Err(error) if !self.accept => {
-                return vec![format!("        `{}` cannot be read: {error}", file.display())];
-            }
-            Err(error) => return vec![format!("        `{}` is there already, and {error}", file.display())],
+            Err(error) => return vec![format!("        `{}` cannot be read: {error}", file.display())],
         };
-        // The ends of lines belong to who keeps the file: version control and editors write their own.
-        if stored.as_deref().is_some_and(|stored| stored.lines().eq(trace.lines())) {
+        if stored.as_deref().is_some_and(|stored| is_same(stored, trace)) {
             return Vec::new();
         }
-        // What somebody else wrote is no old snapshot.
-        let foreign = stored.as_deref().filter(|stored| !stored.is_empty()).and_then(first_foreign_line);
-        if self.accept {
-            if let Some(line) = foreign {
-                return vec![
-                    format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
-                    THEIRS.to_string(),
-                ];
-            }
-            let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
-            return match made.and_then(|()| disk::rewrite(&file, stored.as_deref(), trace)) {
-                Ok(others) => {
-                    say(&format!("        wrote {}", file.display()));
-                    message::parted(&file, others);
-                    Vec::new()
-                }
-                Err(error) => vec![format!("        {}", not_written(&file, &error))],
-            };
-        }
+        let foreign = foreign(stored.as_deref());
         let Some(stored) = stored else {
             return vec![
                 format!("        {run}: there is no snapshot `{}`", file.display()),
@@ -225,6 +245,7 @@ impl Test {
         if behavior.is_some() || foreign.is_none() {
             let verdict = match behavior {
                 Some(_) => "behaved differently",
+                None if written(&stored).eq(written(trace)) => "the same, but for blank lines",
                 None if without_lines(&stored) == without_lines(trace) => "same behavior, by rules on other lines",
                 None => "numerically different, same behavior",
             };
@@ -319,6 +340,21 @@ fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {
         Err(Unread::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// Whether a snapshot is a trace. The ends of lines belong to who keeps the file: version control and editors write their own.
+fn is_same(stored: &str, trace: &str) -> bool {
+    stored.lines().eq(trace.lines())
+}
+
+/// The lines in which something stands.
+fn written(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.trim().is_empty())
+}
+
+/// The line of a snapshot that somebody else wrote: what it holds is no old snapshot.
+fn foreign(stored: Option<&str>) -> Option<usize> {
+    stored.filter(|stored| !stored.is_empty()).and_then(first_foreign_line)
 }
 
 /// The first lines in which two texts differ.

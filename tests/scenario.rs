@@ -69,6 +69,9 @@ fn what_is_derived_is_listed_whole() {
         let said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
         assert!(output.status.code() == Some(3) && said.contains(why), "{value}: {said}");
     };
+    // A parameter in the place of the base's has another default and range.
+    let faster = listed(&["tests/scenario/derived.alb#faster", "--no-out"]);
+    assert!(faster.contains("0.15 m/s toward 90 deg\n"), "{faster}");
     refused("depth=80m", "is outside the range of `depth`");
     refused("deeper.speed=3cm/s", "what runs is `ours_in_it`");
 }

@@ -54,6 +54,10 @@ pub(super) fn left_by(path: &Path, origin: &Provenance) -> Result<Option<Vec<u8>
 /// What is written into a table that is gone on with would be in a backup, too, that is another name of it or of what lies beside it.
 pub(super) fn alone_of_name(path: &Path) -> Result<(), TableError> {
     let [of, sums] = neighbours(path);
+    if sums.is_symlink() {
+        let message = format!("`{}` is a link, and a row is written into the file itself", sums.display());
+        return Err(TableError::Asked(message, "put the file that it leads to in its place".to_string()));
+    }
     let Some(linked) = [path, &of, &sums].into_iter().find(|path| disk::names(path) > 1) else { return Ok(()) };
     let message = format!("`{}` has another name (a hard link), under which it would be changed too", linked.display());
     Err(TableError::Asked(

@@ -146,7 +146,7 @@ impl<'t> Checker<'t> {
             );
         }
         match &clause.kind {
-            ClauseKind::Area { name, value } => self.operating_area(name, value, clause.span, parts),
+            ClauseKind::Area { name, value } => self.area(name, value, parts),
             ClauseKind::Limits(limits) => limits.iter().for_each(|limit| self.limit(limit, &mut parts.mission)),
             ClauseKind::Requires(requires) => {
                 requires.iter().for_each(|require| self.require(require, &mut parts.mission));
@@ -210,18 +210,11 @@ impl<'t> Checker<'t> {
         (condition, block)
     }
 
-    fn operating_area(&mut self, name: &tree::Name, value: &tree::Expr, span: Span, parts: &mut Parts) {
-        let value = self.instant(Temporal::No, |c| c.expr_as(value, &Type::Area, "the operating area"));
-        if let Some(earlier) = parts.mission.area {
-            let place = self.scope.vars[earlier].span;
-            self.report(
-                Diagnostic::error(Code::MissionsTwice, span, "a mission has one operating area")
-                    .label(place, "the first")
-                    .help("keep one of them"),
-            );
-        }
+    /// The operating area, and regions of it.
+    fn area(&mut self, name: &tree::Name, value: &tree::Expr, parts: &mut Parts) {
+        let value = self.instant(Temporal::No, |c| c.expr_as(value, &Type::Area, "the area"));
         let id = self.declare(name, VarKind::Area, Type::Area);
-        parts.mission.area = Some(id);
+        parts.mission.areas.push(id);
         parts.decls.push(Decl::Area(id, value));
     }
 

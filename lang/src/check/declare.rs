@@ -400,9 +400,9 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::ArgsMissing, info.span, message);
             self.report(finding.help("give it a default, which `--set` changes"));
         }
-        let scenario = &mut self.hir.scenarios[id];
+        let inherited = self.hir.scenarios[id].vars.len();
         for info in infos {
-            scenario.vars.push(hir::Var {
+            let var = hir::Var {
                 name: info.name,
                 kind: hir::VarKind::Param,
                 ty: info.ty.clone(),
@@ -411,8 +411,47 @@ impl<'t> Checker<'t> {
                 walks_constants: false,
                 is_momentary: false,
                 order: None,
-            });
-            scenario.defaults.push(info.default);
+            };
+            let replaced = self.hir.scenarios[id].vars[..inherited].iter().position(|theirs| theirs.name == var.name);
+            let fits = replaced.is_none_or(|at| self.fits_in_place_of(&var, self.hir.scenarios[id].vars[at].clone()));
+            if replaced.is_some() {
+                // The base's clauses read it.
+                self.names_used.read(var.span);
+            }
+            let scenario = &mut self.hir.scenarios[id];
+            match replaced {
+                Some(at) if fits => (scenario.vars[at], scenario.defaults[at]) = (var, info.default),
+                Some(_) => {}
+                None => {
+                    scenario.vars.push(var);
+                    scenario.defaults.push(info.default);
+                }
+            }
         }
+    }
+
+    /// Whether a parameter can stand in the place of one that a scenario has of its base. The base's clauses were checked with that: they hold for
+    /// what is of its type and in its range.
+    fn fits_in_place_of(&mut self, own: &hir::Var, theirs: hir::Var) -> bool {
+        let name = &own.name;
+        let (message, help) = if own.ty != theirs.ty {
+            let ty = self.type_name(&theirs.ty);
+            (
+                format!("`{name}` is a parameter of the base, of the type {ty}"),
+                "give it that type, or choose another name".to_string(),
+            )
+        } else if own.range.low < theirs.range.low || own.range.high > theirs.range.high {
+            let [low, high] = [theirs.range.low, theirs.range.high].map(|x| self.shown_number(x, &theirs.ty));
+            (
+                format!("`{name}` may be more or less than in the base"),
+                format!("write a range that lies within that of the base: `in {low}..{high}`"),
+            )
+        } else {
+            return true;
+        };
+        let finding =
+            Diagnostic::error(Code::ScenariosDerived, own.span, message).label(theirs.span, "that of the base");
+        self.report(finding.help(help));
+        false
     }
 }

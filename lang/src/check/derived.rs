@@ -119,14 +119,6 @@ impl<'t> Checker<'t> {
                     self.hir.scenarios[*id].vars.push(var);
                 }
             }
-            for param in params {
-                let inherited = self.hir.scenarios[*id].vars.iter().find(|var| var.name == param.name.node);
-                if let Some(inherited) = inherited.map(|var| var.span) {
-                    let message = format!("`{}` is a parameter already", param.name.node);
-                    let finding = Diagnostic::error(Code::NamesTwice, param.name.span, message);
-                    self.report(finding.label(inherited, "here").help("leave it out, or choose another name"));
-                }
-            }
             self.own_scenario_params(module, *id, name, params);
         }
         self.scenario_lineage = lineage;

@@ -34,9 +34,9 @@ impl Expectations<'_> {
         }
     }
 
-    /// Whether something of a run is read. The mission's area is none: it is the same in all.
+    /// Whether something of a run is read. An area of the mission is none: it is the same in all.
     fn reads_run(&self, e: &Expr) -> bool {
-        let is_read = |id: VarId| (self.kind)(id) == VarKind::Signal && id != self.names.area;
+        let is_read = |id: VarId| (self.kind)(id) == VarKind::Signal && !self.names.areas.contains(&id);
         e.contains(|e| matches!(e.kind, ExprKind::Var(id) if is_read(id)))
     }
 

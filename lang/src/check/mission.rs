@@ -187,7 +187,7 @@ impl Checker<'_> {
         }
         let missing = [
             (mission.within.is_none(), Code::MissionsWithin, "a time limit", "write `within 2 h` after its name"),
-            (mission.area.is_none(), Code::MissionsArea, "an operating area", "write `area op = rectangle(…)`"),
+            (mission.areas.is_empty(), Code::MissionsArea, "an operating area", "write `area op = rectangle(…)`"),
             (
                 mission.recovery.is_none(),
                 Code::MissionsRecovery,

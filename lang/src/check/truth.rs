@@ -61,6 +61,7 @@ impl<'t> Checker<'t> {
     pub(super) fn test_scope(&mut self, mission: usize) {
         let span = self.activity_signatures[mission].span;
         let var = |c: &mut Self, name: &str, ty: Type| c.declare_hidden(name.to_string(), VarKind::Signal, ty, span);
+        let areas = self.hir.activities[mission].mission.as_ref().map_or(0, |mission| mission.areas.len());
         let vars = TestNames {
             position: var(self, "truth.position", Type::Point),
             nearest_source: var(self, "truth.nearest_source", Type::Point.optional()),
@@ -68,7 +69,7 @@ impl<'t> Checker<'t> {
             deepest: var(self, "truth.deepest", Type::Point.optional()),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
             outcomes: OUTCOMES.map(|name| var(self, name, Type::Bool)),
-            area: var(self, "the mission's area", Type::Area),
+            areas: (0..areas).map(|_| var(self, "an area of the mission", Type::Area)).collect(),
             reports: Vec::new(),
             sources: Vec::new(),
             beacon: None,
@@ -194,7 +195,7 @@ impl<'t> Checker<'t> {
         self.unknown(span)
     }
 
-    /// `box.op`: the area of the mission that a test runs; `box.size`: a parameter of it, with the value that it is given.
+    /// `box.op`: an area of the mission that a test runs; `box.size`: a parameter of it, with the value that it is given.
     fn member_of_the_tested(&mut self, base: &tree::Expr, member: &tree::Name, span: Span) -> Option<Expr> {
         let test = self.test.as_ref()?;
         let mission = &self.hir.activities[test.mission];
@@ -206,21 +207,21 @@ impl<'t> Checker<'t> {
             self.names_used.refer(member.span, mission.vars[param].span);
             return Some(self.param_of_the_tested(test.mission, param, span));
         }
-        let area = mission.vars.iter().find(|var| var.kind == VarKind::Area);
-        let Some(area) = area.filter(|area| area.name == member.node) else {
+        let areas = || mission.vars.iter().filter(|var| var.kind == VarKind::Area);
+        let area = areas().zip(&test.names.areas).find(|(area, _)| area.name == member.node);
+        let Some((area, &id)) = area else {
             // A module may have the name of its mission.
             if self.module_named(base).is_some() {
                 return None;
             }
             let message = format!("the mission has no area or parameter `{}`", member.node);
             let finding = Diagnostic::error(Code::NamesUnknown, member.span, message);
-            let known = params.iter().chain(area).map(|var| var.name.as_str());
+            let known = params.iter().chain(areas()).map(|var| var.name.as_str());
             let help = self.suggestion(&member.node, known);
             let otherwise = || "`truth.position` and the like tell where the vehicle truly was".to_string();
             self.report(finding.help(help.unwrap_or_else(otherwise)));
             return Some(self.unknown(span));
         };
-        let id = test.names.area;
         self.names_used.refer(base.span, mission.span);
         self.names_used.refer(member.span, area.span);
         Some(self.variable(id, span))

@@ -8,7 +8,7 @@ use super::{Checker, Module};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
-use crate::syntax::tree::{Activity, ActivityKind, Block, Clause, ClauseKind, Item, Path, Target, WithItem};
+use crate::syntax::tree::{Activity, ActivityKind, Block, Clause, ClauseKind, Item, Param, Path, Target, WithItem};
 use albacore_program::Channel;
 use albacore_wording::{help, nearest};
 use std::borrow::Cow;
@@ -240,10 +240,23 @@ fn derive(base: &Activity, own: &Activity) -> Activity {
     Activity {
         kind: own.kind.clone(),
         name: own.name.clone(),
-        params: base.params.iter().chain(&own.params).cloned().collect(),
+        params: params(base, own),
         result: own.result.clone().or_else(|| base.result.clone()),
         body: Block { clauses, span: own.body.span },
     }
+}
+
+/// The parameters of the base and its own. One of a name that the base has stands in the place of the base's: it has another default or range.
+fn params(base: &Activity, own: &Activity) -> Vec<Param> {
+    let mut params = base.params.clone();
+    for (nth, param) in own.params.iter().enumerate() {
+        let is_first = own.params[..nth].iter().all(|before| before.name.node != param.name.node);
+        match base.params.iter().position(|theirs| theirs.name.node == param.name.node) {
+            Some(at) if is_first => params[at] = param.clone(),
+            _ => params.push(param.clone()),
+        }
+    }
+    params
 }
 
 /// `start` and the rules.

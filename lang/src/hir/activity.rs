@@ -129,8 +129,8 @@ pub struct Mission {
     pub scenario: Option<String>,
     /// Its time limit.
     pub within: Option<Expr>,
-    /// Its operating area.
-    pub area: Option<VarId>,
+    /// Its operating area, and the regions of it that it names.
+    pub areas: Vec<VarId>,
     /// `channel >= value`: channel, whether it is the least value, the value.
     pub limits: Vec<(Channel, bool, Expr)>,
     /// The fastest turn that is commanded.

@@ -1,6 +1,6 @@
 //! Positions on the globe that are written in expressions, and what lies in the middle of them.
 
-use super::{ClauseArg, ClauseUse, Expr, ExprKind};
+use super::{Activity, ClauseArg, ClauseUse, Decl, Expr, ExprKind};
 use albacore_geometry::{Geodetic, longitude_beside, longitude_within};
 
 /// A latitude and a longitude as they are written, degrees.
@@ -23,6 +23,22 @@ impl Expr {
             true
         });
         found
+    }
+}
+
+impl Activity {
+    /// The areas of a mission as they are written, the operating area first.
+    pub fn areas(&self) -> impl Iterator<Item = &Expr> {
+        self.decls.iter().filter_map(|decl| match decl {
+            Decl::Area(_, e) => Some(e),
+            _ => None,
+        })
+    }
+
+    /// Where the local frame of a mission touches the globe: in the middle of the positions that its first area is made of that has any. Of a
+    /// rectangle that is the centre.
+    pub fn origin(&self) -> Option<Geodetic> {
+        self.areas().find_map(|area| middle(&area.positions()))
     }
 }
 

@@ -98,8 +98,8 @@ pub struct TestNames<T> {
     pub time: T,
     /// How the mission ended, for each of [`OUTCOMES`].
     pub outcomes: [T; OUTCOMES.len()],
-    /// The mission's area.
-    pub area: T,
+    /// The mission's areas, the operating area first.
+    pub areas: Vec<T>,
     /// What was reported, by name.
     pub reports: Vec<(ReportPart, String, T)>,
     /// The true place of a source, by its name, if there is one.
@@ -205,7 +205,7 @@ impl<T: Copy> TestNames<T> {
             deepest: f(self.deepest),
             time: f(self.time),
             outcomes: self.outcomes.map(&f),
-            area: f(self.area),
+            areas: self.areas.iter().map(|x| f(*x)).collect(),
             reports: self.reports.iter().map(report).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
             beacon: self.beacon.map(&f),

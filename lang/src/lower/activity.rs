@@ -5,8 +5,8 @@ use super::{Lowering, SortedBy, Sorter, slot};
 use crate::hir::{self, Block, Decl, Expr, ExprKind, Kind, Var, children};
 use crate::types::Type;
 use albacore_program::{
-    Abort, Activity, ActivityKind, Addr, Body, Code, Compute, Limits, ListOp, Op, Recording, Recovery, Require, Slot,
-    Valued, header,
+    Abort, Activity, ActivityKind, Addr, Body, Code, Compute, Limits, ListOp, NamedArea, Op, Recording, Recovery,
+    Require, Slot, Valued, header,
 };
 
 /// The words that are compared, at most, before a list is put in order anew.
@@ -16,7 +16,7 @@ impl<'a> Lowering<'a> {
     /// Lowers a mission; gives the words that it needs.
     pub(super) fn mission(&mut self, id: usize) -> u64 {
         let activity = &self.hir.activities[id];
-        self.find_origin(activity);
+        self.origin = activity.origin().or(self.origin);
         self.inputs();
         self.keep_samples(id);
         self.claim_inputs();
@@ -34,17 +34,6 @@ impl<'a> Lowering<'a> {
         let words = base.saturating_add(unit.words);
         self.program.words = slot(words);
         words
-    }
-
-    /// The local frame lies about the middle of the positions that the area is made of: of a rectangle its centre.
-    fn find_origin(&mut self, mission: &hir::Activity) {
-        let mut found = Vec::new();
-        for decl in &mission.decls {
-            if let Decl::Area(_, e) = decl {
-                found.extend(e.positions());
-            }
-        }
-        self.origin = hir::middle(&found).or(self.origin);
     }
 
     /// The subroutines that put ordered lists in order.
@@ -283,7 +272,10 @@ impl<'a> Lowering<'a> {
             }
             Decl::Area(var, e) => {
                 let to = self.frame.vars[*var];
-                self.program.mission.area = Some(to);
+                let name = self.vars[*var].name.clone();
+                // Code is made twice: the first time only to learn how many words it takes.
+                self.program.mission.areas.retain(|area| area.name != name);
+                self.program.mission.areas.push(NamedArea { name, at: to });
                 self.scratch(|l| l.expr_into(e, to));
             }
             Decl::Memory(var, init) => {

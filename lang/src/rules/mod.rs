@@ -37,7 +37,10 @@ pub fn check(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnostic> {
     findings.extend(places::unusable(hir, mission));
     match swapped::check(hir, mission) {
         Some(swapped) => findings.push(swapped),
-        None => findings.extend(places::goals(hir, types, mission)),
+        None => {
+            findings.extend(places::regions(hir, mission));
+            findings.extend(places::goals(hir, types, mission));
+        }
     }
     findings
 }

@@ -6,7 +6,7 @@ use super::swapped;
 use super::swapped::hemisphere;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
+use crate::hir::{Action, Builtin, ClauseArg, ClauseUse, Expr, ExprKind, Hir, StmtKind};
 use crate::source::Span;
 use crate::types::TypeTable;
 use albacore_formats::area::SWAPPED;
@@ -132,6 +132,25 @@ pub(super) fn goals(hir: &Hir, types: &TypeTable, mission: usize) -> Vec<Diagnos
         .collect()
 }
 
+/// Areas of a mission that are made of constants and reach outside the first, its operating area.
+pub(super) fn regions(hir: &Hir, mission: usize) -> Vec<Diagnostic> {
+    let activity = &hir.activities[mission];
+    let Some((whole, written, frame)) = of_mission(hir, mission) else { return Vec::new() };
+    let outside = |e: &Expr| {
+        let region = area(e, frame)?;
+        let out = region.corners().iter().map(|&corner| -whole.gap(corner)).fold(0.0, f64::max);
+        let message = format!(
+            "this area reaches {} outside the operating area of the mission `{}`",
+            distance(out),
+            activity.name
+        );
+        let finding = Diagnostic::warning(Code::AreasGoal, e.span, message).label(written, "the operating area");
+        let help = "the first `area` is where the vehicle may be, and the others are regions of it: widen the first, or move this one into it";
+        (out > GOAL_MARGIN_M).then(|| finding.help(help))
+    };
+    activity.areas().skip(1).filter_map(outside).collect()
+}
+
 /// The area of a mission and where that is written, if it is made of constants.
 pub fn operating_area(hir: &Hir, mission: usize) -> Option<(Area, Span)> {
     of_mission(hir, mission).map(|(area, written, _)| (area, written))
@@ -153,18 +172,15 @@ fn longitudes(area: &Expr) -> Vec<f64> {
     }
 }
 
-/// The area of a mission as it is written.
+/// The operating area of a mission as it is written.
 pub(super) fn written_area(hir: &Hir, mission: usize) -> Option<&Expr> {
-    hir.activities[mission].decls.iter().find_map(|decl| match decl {
-        crate::hir::Decl::Area(_, e) => Some(e),
-        _ => None,
-    })
+    hir.activities[mission].areas().next()
 }
 
 /// The same, and the frame that it lies in.
 fn of_mission(hir: &Hir, mission: usize) -> Option<(Area, Span, Option<TangentFrame>)> {
     let written = written_area(hir, mission)?;
-    let frame = hir::middle(&written.positions()).map(|origin| TangentFrame { origin });
+    let frame = hir.activities[mission].origin().map(|origin| TangentFrame { origin });
     Some((area(written, frame)?, written.span, frame))
 }
 

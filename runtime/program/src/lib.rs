@@ -38,7 +38,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 13;
+pub const PROGRAM_VERSION: u32 = 14;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -75,6 +75,15 @@ pub struct Program {
     pub words: u32,
 }
 
+/// An area of a mission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NamedArea {
+    /// Its name.
+    pub name: String,
+    /// Its slot, in the mission's frame.
+    pub at: Slot,
+}
+
 /// What belongs to the mission alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mission {
@@ -84,8 +93,8 @@ pub struct Mission {
     pub activity: ActivityId,
     /// The base of its frame.
     pub base: Slot,
-    /// The slot of its operating area, in its frame.
-    pub area: Option<Slot>,
+    /// Its operating area, and the regions of it that it names.
+    pub areas: Vec<NamedArea>,
     /// Gives its parameters their values; run before anything else.
     pub params: Addr,
     /// Its time limit, in ticks.

@@ -46,6 +46,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         subtitle: subtitle(&summary, results.plan.program.mission.origin),
         depths: Depths::sound(sounded, depth),
         area: results.area.clone(),
+        regions: results.regions.clone(),
         plume: world.plume.clone(),
         deepest,
         map: results.map.clone(),

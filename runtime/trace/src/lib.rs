@@ -19,4 +19,4 @@ pub use behavior::{BehaviorTrace, Header, Release};
 pub use compare::{Difference, first_difference, first_foreign_line, same_behavior};
 pub use digest::Digest;
 pub use picture::{Cells, Depths, Picture};
-pub use record::{Ending, Step, TickRecord};
+pub use record::{Ending, Step, TickRecord, areas};

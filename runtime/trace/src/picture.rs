@@ -39,6 +39,8 @@ pub struct Picture {
     pub area: Vec<Point>,
     /// What the legend calls it; empty: the operating area.
     pub area_name: String,
+    /// Regions that the mission names: names and corners.
+    pub regions: Vec<(String, Vec<Point>)>,
     /// Where the vehicle must not be: names and corners. They may leave the chart.
     pub no_go: Vec<(String, Vec<Point>)>,
     /// Where the vehicle goes by itself: the corners of its way, in order.
@@ -110,7 +112,7 @@ impl Picture {
             .area
             .iter()
             .chain(&self.water)
-            .chain(self.outlines.iter().flat_map(|(_, corners)| corners))
+            .chain(self.regions.iter().chain(&self.outlines).flat_map(|(_, corners)| corners))
             .chain(self.leaks.iter().flatten())
             .copied()
             .chain(self.route.iter().copied())

@@ -5,7 +5,7 @@ use crate::behavior::Release;
 use crate::journal::snapshot;
 use albacore_geometry::Point;
 use albacore_machine::{Event, Outcome};
-use albacore_program::{AREA_CORNER_WORDS, ActivityId};
+use albacore_program::{AREA_CORNER_WORDS, ActivityId, area_words};
 use albacore_vehicle::{Command, Snapshot, Truth};
 use serde::{Deserialize, Serialize};
 
@@ -27,8 +27,8 @@ pub struct TickRecord {
     pub notices: Vec<String>,
     /// What is so, whatever the sensors say: known in simulation only.
     pub truth: Option<Truth>,
-    /// The words of the mission's area: in the first tick that knows it, and at the end again.
-    pub area: Vec<f64>,
+    /// The words of the mission's areas, one after another: in the first tick that knows them, and at the end again.
+    pub areas: Vec<f64>,
     /// Where the mission believes the vehicle to be. It follows from the samples: no journal keeps it.
     #[serde(skip)]
     pub believed: Option<Point>,
@@ -80,7 +80,7 @@ impl TickRecord {
             snapshot: Snapshot { samples, ..Snapshot::default() },
             events: emptied(&mut self.events),
             notices: emptied(&mut self.notices),
-            area: emptied(&mut self.area),
+            areas: emptied(&mut self.areas),
             active: emptied(&mut self.active),
             ..TickRecord::default()
         };
@@ -102,17 +102,29 @@ impl TickRecord {
         }
     }
 
-    /// The corners of the mission's area, where its words are told.
-    pub fn corners(&self) -> Vec<Point> {
-        let count = self.area.first().map_or(0, |count| *count as usize);
-        let corners = self.area.get(1..).unwrap_or_default().chunks_exact(AREA_CORNER_WORDS as usize);
-        corners.take(count).map(|words| Point::new(words[0], words[1])).collect()
+    /// The corners of each of the mission's areas, where their words are told: the operating area comes first.
+    pub fn corners(&self) -> Vec<Vec<Point>> {
+        let place = |words: &[f64]| Point::new(words[0], words[1]);
+        let corners = |area: &[f64]| area[1..].chunks_exact(AREA_CORNER_WORDS as usize).map(place).collect();
+        areas(&self.areas).into_iter().map(corners).collect()
     }
 
     /// Where the vehicle is, as well as that is known.
     pub fn here(&self) -> Option<Point> {
         self.truth.map(|truth| truth.position).or(self.believed)
     }
+}
+
+/// The words of each of some areas that stand one after another; what is cut off is none.
+pub fn areas(mut words: &[f64]) -> Vec<&[f64]> {
+    let mut areas = Vec::new();
+    while let Some((area, rest)) =
+        words.first().and_then(|&corners| words.split_at_checked(area_words(corners as u32) as usize))
+    {
+        areas.push(area);
+        words = rest;
+    }
+    areas
 }
 
 /// The bytes of what an event has to say.

@@ -3,7 +3,7 @@
 use albacore_geometry::TangentFrame;
 use albacore_lang::hir::{Activity, Decl, Expr, ExprKind, children};
 
-/// The local frame lies about the mean of the positions that the mission's area is made of.
+/// The local frame lies about the mean of the positions that the mission's first area is made of that has any.
 pub fn of(mission: &Activity) -> Option<TangentFrame> {
     fn positions(e: &Expr, found: &mut Vec<(f64, f64)>) {
         if let ExprKind::Geodetic { latitude_deg, longitude_deg } = e.kind {
@@ -13,8 +13,9 @@ pub fn of(mission: &Activity) -> Option<TangentFrame> {
     }
     let mut found = Vec::new();
     for decl in &mission.decls {
-        if let Decl::Area(_, e) = decl {
-            positions(e, &mut found);
+        match decl {
+            Decl::Area(_, e) if found.is_empty() => positions(e, &mut found),
+            _ => {}
         }
     }
     let n = found.len() as f64;

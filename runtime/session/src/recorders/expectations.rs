@@ -8,7 +8,7 @@ use albacore_lang::hir::{Motion, OUTCOMES, ReportPart, When};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{ActivityId, Display, Shape, number};
-use albacore_trace::{Step, TickRecord};
+use albacore_trace::{Step, TickRecord, areas};
 use albacore_vehicle::{Truth, seconds};
 
 /// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
@@ -18,8 +18,8 @@ pub(crate) struct Expectations<'t> {
     evaluation: Evaluation,
     /// How the vehicle truly lies and moves.
     truth: Truth,
-    /// The words of the mission's area.
-    area: Vec<f64>,
+    /// The words of the mission's areas, one after another.
+    areas: Vec<f64>,
     /// The names of the active activities within the mission, as the trace tells them.
     active: String,
     /// For each expectation whether there was a moment to look at it.
@@ -42,7 +42,7 @@ impl<'t> Expectations<'t> {
             results: Results::new(plan, seed, Some(start)),
             evaluation,
             truth: Truth { position: start, ..Truth::default() },
-            area: Vec::new(),
+            areas: Vec::new(),
             active: String::new(),
             looked: vec![false; test.expects.len()],
             breaches: vec![None; test.expects.len()],
@@ -165,7 +165,9 @@ impl<'t> Expectations<'t> {
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
         evaluation.set(slots.time, &[time]);
-        evaluation.set(slots.area, &self.area);
+        for (slot, area) in slots.areas.iter().zip(areas(&self.areas)) {
+            evaluation.set(*slot, area);
+        }
         for (name, slot) in OUTCOMES.iter().zip(slots.outcomes) {
             evaluation.set(slot, &[f64::from(u8::from(outcome == Some(name)))]);
         }
@@ -206,8 +208,8 @@ impl Recorder for Expectations<'_> {
     fn take(&mut self, record: &TickRecord) {
         self.results.take(record);
         self.truth = record.truth.unwrap_or(self.truth);
-        if !record.area.is_empty() {
-            self.area.clone_from(&record.area);
+        if !record.areas.is_empty() {
+            self.areas.clone_from(&record.areas);
         }
         // What has been left with the end is not active in its tick any more.
         let within = record.active.get(1..).unwrap_or_default();

@@ -112,8 +112,10 @@ pub(crate) struct Results {
     pub plan: Plan,
     pub seed: u64,
     pub reports: Reports,
-    /// The corners of the mission's area, once it has one.
+    /// The corners of the mission's operating area, once it has one.
     pub area: Vec<Point>,
+    /// Those of its other areas, by their names.
+    pub regions: Vec<(String, Vec<Point>)>,
     /// The deepest point of that, once it has one; none where the water is equally deep everywhere.
     pub deepest: Option<Point>,
     /// The areas that were reported, each as it was last, by their names.
@@ -137,6 +139,7 @@ impl Results {
             seed,
             reports: Reports::default(),
             area: Vec::new(),
+            regions: Vec::new(),
             deepest: None,
             areas: BTreeMap::new(),
             map: None,
@@ -286,8 +289,11 @@ impl Results {
 
 impl Recorder for Results {
     fn take(&mut self, record: &TickRecord) {
-        if self.area.is_empty() && !record.area.is_empty() {
-            self.area = record.corners();
+        if self.area.is_empty() && !record.areas.is_empty() {
+            let names = self.plan.program.mission.areas.iter().map(|area| area.name.clone());
+            let mut areas = names.zip(record.corners());
+            self.area = areas.next().map(|(_, corners)| corners).unwrap_or_default();
+            self.regions = areas.collect();
             let (bottom, area) = (&self.plan.scenario.environment.bottom, Area::polygon(&self.area).ok());
             self.deepest = area.filter(|_| !bottom.is_level()).map(|area| bottom.deepest(&area));
         }

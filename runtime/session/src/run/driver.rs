@@ -10,7 +10,7 @@ use crate::scenario;
 use albacore_geometry::Point;
 use albacore_machine::{ControlRequest, Event, Machine, Outcome};
 use albacore_navigation::Trust;
-use albacore_program::area_words;
+use albacore_program::{NamedArea, area_words};
 use albacore_sim::Simulator;
 use albacore_trace::{Ending, Release, Step, TickRecord};
 use albacore_vehicle::VehicleError;
@@ -34,7 +34,7 @@ pub(crate) struct Driver {
     reason_tick: u64,
     /// What the vehicle or its link gave notice of last.
     last_notice: String,
-    knows_area: bool,
+    knows_areas: bool,
     next: Next,
 }
 
@@ -75,7 +75,7 @@ impl Driver {
             reason: String::new(),
             reason_tick: 0,
             last_notice: String::new(),
-            knows_area: false,
+            knows_areas: false,
             next: Next::Tick,
         })
     }
@@ -231,7 +231,7 @@ impl Driver {
             }
         };
         self.describe(record);
-        record.area = self.area();
+        record.areas = self.areas();
         let heard = matches!(outcome, Outcome::Refused | Outcome::ReleasedByVehicle | Outcome::LinkLost);
         if heard && !from_outside {
             self.vehicle_left(record);
@@ -303,19 +303,21 @@ impl Driver {
         record.truth = self.vehicle.truth();
         record.believed = self.machine.position();
         record.active = self.machine.active();
-        if !self.knows_area {
-            record.area = self.area();
-            self.knows_area = !record.area.is_empty();
+        if !self.knows_areas {
+            record.areas = self.areas();
+            self.knows_areas = !record.areas.is_empty();
         }
     }
 
-    /// The words of the mission's area, once it has one.
-    fn area(&self) -> Vec<f64> {
-        let program = self.machine.program();
-        let at = program.mission.area.map(|area| (program.mission.base + area) as usize);
-        let words = at.and_then(|at| self.machine.state().words.get(at..)).unwrap_or_default();
-        let corners = words.first().map_or(0, |corners| *corners as u32);
-        let words = words.get(..area_words(corners) as usize).filter(|_| corners > 0);
-        words.map(<[f64]>::to_vec).unwrap_or_default()
+    /// The words of the mission's areas, one after another, once it has them.
+    fn areas(&self) -> Vec<f64> {
+        let mission = &self.machine.program().mission;
+        let area = |area: &NamedArea| {
+            let words = self.machine.state().words.get((mission.base + area.at) as usize..)?;
+            let corners = words.first().map(|corners| *corners as u32).filter(|corners| *corners > 0)?;
+            words.get(..area_words(corners) as usize)
+        };
+        let areas: Option<Vec<&[f64]>> = mission.areas.iter().map(area).collect();
+        areas.unwrap_or_default().concat()
     }
 }

@@ -32,6 +32,8 @@ pub const PLUME: &str = "#b08d2f";
 pub const DETECTION: &str = "#333";
 /// The colour of places where the vehicle must not be.
 const NO_GO: &str = "#b3001b";
+/// The colour of regions that a mission names.
+const REGION: &str = "#555";
 /// The colour of areas that were reported.
 const OUTLINE: &str = "#111";
 /// The colour of true sources.
@@ -53,6 +55,9 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     picture.map.iter().for_each(|map| map.draw(svg, frame));
     plume(svg, picture, frame);
     area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
+    for (_, corners) in &picture.regions {
+        region(svg, &outline(corners, frame));
+    }
     for (_, corners) in &picture.no_go {
         no_go(svg, &outline(corners, frame));
     }
@@ -73,6 +78,17 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
 
 fn outline(corners: &[Point], frame: &Frame) -> Vec<(f64, f64)> {
     corners.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect()
+}
+
+/// A dashed outline, finer than that of the operating area.
+pub fn region(svg: &mut Svg, corners: &[(f64, f64)]) {
+    if corners.len() > 2 {
+        svg.path(
+            corners,
+            true,
+            &format!("fill=\"none\" stroke=\"{REGION}\" stroke-width=\"1\" stroke-dasharray=\"4 3\""),
+        );
+    }
 }
 
 /// A filled outline.
@@ -259,7 +275,8 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     reports.iter().for_each(|(_, at)| report_mark(svg, *at));
     let no_go = picture.no_go.iter().map(|(name, corners)| (name, corners, NO_GO));
     let reported = picture.outlines.iter().map(|(name, corners)| (name, corners, OUTLINE));
-    for (name, corners, colour) in no_go.chain(reported) {
+    let regions = picture.regions.iter().map(|(name, corners)| (name, corners, REGION));
+    for (name, corners, colour) in no_go.chain(reported).chain(regions) {
         let corners = outline(corners, frame);
         let share = 1.0 / corners.len().max(1) as f64;
         let middle = corners.iter().fold((0.0, 0.0), |(x, y), corner| (x + share * corner.0, y + share * corner.1));

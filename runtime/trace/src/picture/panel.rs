@@ -48,6 +48,7 @@ impl<'a> Panel<'a> {
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
             (!picture.area.is_empty(), area, area_mark),
+            (!picture.regions.is_empty(), "region", region_mark),
             (!picture.route.is_empty(), "its own mission", route_mark),
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
             (!picture.outlines.is_empty(), "reported area", reported_area_mark),
@@ -181,6 +182,10 @@ fn whole_degrees(flow: Vector) -> String {
 fn area_mark(svg: &mut Svg, (x, y): (f64, f64)) {
     let corners = [(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)];
     svg.path(&corners, true, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"5 3\"");
+}
+
+fn region_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    chart::region(svg, &[(x - 13.0, y - 6.0), (x + 13.0, y - 6.0), (x + 13.0, y + 6.0), (x - 13.0, y + 6.0)]);
 }
 
 fn route_mark(svg: &mut Svg, (x, y): (f64, f64)) {
