@@ -40,7 +40,7 @@ fn records() -> Vec<TickRecord> {
             snapshot: snapshot(&[(0, &[12.5, -0.0]), (1, &[0.0, 0.0, 0.0, 1e300]), (1, &[])]),
             command: Some(command(1.8)),
             events: vec![Event::Control(Control::InControl), Event::Entered(0), Event::Logged("under way".into())],
-            area: vec![1.0, 2.0, 3.0, 0.0, 1.0],
+            areas: vec![1.0, 2.0, 3.0, 0.0, 1.0],
             ..tick(1)
         },
         TickRecord {
