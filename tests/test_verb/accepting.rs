@@ -163,7 +163,13 @@ fn the_ends_of_lines_are_no_part_of_a_snapshot() {
     // What else differs is shown, though it be a blank line.
     std::fs::write(&file, format!("{accepted}\n")).unwrap();
     let (code, said) = project.test(&[]);
-    assert!(code == Some(1) && said.contains("the same, but for blank lines") && said.contains("- (an empty line)") && said.contains("+ (nothing more)"), "{said}");
+    assert!(
+        code == Some(1)
+            && said.contains("the same, but for blank lines")
+            && said.contains("- (an empty line)")
+            && said.contains("+ (nothing more)"),
+        "{said}"
+    );
 }
 
 /// The command that a message gives accepts what the message is of, typed as it stands, and nothing else: whatever the paths are

@@ -140,6 +140,16 @@ impl<'t> Checker<'t> {
             (Type::Quantity(d), Type::Point) if *d == Dimension::ANGLE => {
                 "to go in a direction write `steer HEADING`".into()
             }
+            (Type::List(inner, _), Type::List(other, _)) | (Type::Map(inner, _), Type::Map(other, _))
+                if inner != other =>
+            {
+                match variable {
+                    Some(variable) => format!("what is in it becomes nothing else: declare `{variable}: {wants}`"),
+                    None => {
+                        format!("what is in it becomes nothing else: it is declared as `{}`", self.type_name(&value.ty))
+                    }
+                }
+            }
             (Type::Point, Type::Line) => "to go to a point write `goto POINT`; a line is `line(start, end)`".into(),
             _ => return None,
         })

@@ -7,7 +7,7 @@ use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, TextPart};
+use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
 use crate::types::Type;
@@ -377,7 +377,7 @@ impl<'t> Checker<'t> {
         if !matches!(self.scope.temporal, Temporal::Reaction | Temporal::Rule) || self.scope.is_watched {
             self.report(
                 Diagnostic::error(Code::TimeRhythm, span, "`every` counts from when its `on` last fired, and here nothing fires")
-                    .help("it stands in the condition of a rule or of a reaction, alone or beside `and` and `or`; elsewhere write `after T`"),
+                    .help("write it in the condition of a rule or of a reaction, `on every T { … }`, alone or beside `and` and `or`; elsewhere write `after T`"),
             );
             return self.unknown(span);
         }
@@ -395,6 +395,12 @@ impl<'t> Checker<'t> {
             }
             Unary::Becomes => {
                 let value = self.watched(|c| c.condition(operand));
+                if matches!(value.kind, ExprKind::Input(_, InputPart::IsNew)) {
+                    let message =
+                        "of an input that is sampled in every tick this never holds: there is no tick without a sample";
+                    let finding = Diagnostic::error(Code::TimeMomentary, span, message);
+                    self.report(finding.help("`new X` holds in the ticks in which a sample came: leave `becomes` out"));
+                }
                 self.temporal("becomes", ExprKind::Becomes(Box::new(value)), span)
             }
             Unary::After => {

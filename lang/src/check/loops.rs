@@ -166,7 +166,7 @@ impl<'t> Checker<'t> {
     fn range_holds_something(&mut self, range: &tree::Range, first: &Expr, last: &Expr) {
         let end = if range.inclusive { last.range.high } else { last.range.high - 1.0 };
         if end >= first.range.low {
-            return;
+            return self.range_counts_up(range, first, last);
         }
         let finding =
             Diagnostic::error(Code::RangesEmpty, range.first.span.to(range.last.span), "this range holds nothing");
@@ -177,6 +177,21 @@ impl<'t> Checker<'t> {
             _ => finding.help("`a..b` holds both ends, `a..<b` all but the last; the smaller end comes first"),
         };
         self.report(finding);
+    }
+
+    /// `n..1` is meant to count down: it holds what is between only where that is one number.
+    fn range_counts_up(&mut self, range: &tree::Range, first: &Expr, last: &Expr) {
+        let is_down = last.range.constant().is_some_and(|last| last <= 1.0 && first.range.high > last);
+        if first.range.constant().is_some() || first.range.low < 0.0 || !is_down {
+            return;
+        }
+        let span = range.first.span.to(range.last.span);
+        let finding = Diagnostic::warning(
+            Code::RangesEmpty,
+            span,
+            "a range counts up: where its first number is the larger one it holds nothing",
+        );
+        self.report(finding.help("to count down from `n` to 1 write `1..n`, and take `n + 1 - i` in the loop"));
     }
 
     pub(super) fn while_stmt(&mut self, condition: &Condition, block: &tree::Block, span: Span) -> Option<Stmt> {

@@ -272,6 +272,8 @@ impl<'t> Checker<'t> {
                 .help(format!("write `{name}.NAME`"))
         } else if let Some(help) = self.test.as_ref().and_then(|_| other_languages::end_of_run(name)) {
             finding.help(help)
+        } else if let Some(mission) = self.tested_that_has(name) {
+            finding.help(format!("the mission `{mission}` has one: write `{mission}.{name}`"))
         } else if let Some(help) = other_languages::help(name) {
             finding.help(help)
         } else if dimension::unit(name, &|_| None).is_some() {

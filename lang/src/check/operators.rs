@@ -147,9 +147,26 @@ impl<'t> Checker<'t> {
             }
         };
         let b = self.expr(right, Some(&inner));
+        self.adds_to_zero(left, right);
         let ty = if b.ty.is_optional() { a.ty.clone() } else { inner };
         let b = self.coerce(b, &ty, "what comes before `else`");
         self.make(ExprKind::Else(Box::new(a), Box::new(b)), ty, span)
+    }
+
+    /// `x else 0 + 1` reads as `x else (0 + 1)`: who adds to zero means the parentheses elsewhere.
+    fn adds_to_zero(&mut self, left: &tree::Expr, right: &tree::Expr) {
+        let tree::ExprKind::Binary(op, zero, _) = &right.kind else { return };
+        let is_zero = matches!(&zero.kind, tree::ExprKind::Number { value, .. } if *value == 0.0);
+        if !matches!(op.node, Binary::Add | Binary::Sub) || !is_zero {
+            return;
+        }
+        let finding = Diagnostic::warning(Code::AbsentElse, right.span, "the whole sum stands for what is absent");
+        let sign = op.node.symbol();
+        self.report(
+            finding
+                .label(left.span, "where this is present nothing is added")
+                .help(format!("write `(… else 0) {sign} …`")),
+        );
     }
 
     fn sum(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {

@@ -60,16 +60,15 @@ impl<'t> Checker<'t> {
             .help("move it into the body of a behavior; a reaction can set a `memory` for a rule to see");
             self.report(finding);
         }
-        if let (Some(duration), Some(until)) = (&timed.duration, &timed.until) {
-            self.report(
-                Diagnostic::error(Code::TimeModifier, until.span, "`for` and `until` cannot both end this")
-                    .label(duration.span, "the other end")
-                    .help("write `until X` with `within T` to cut it off, or `until X or after T`"),
-            );
-        }
-        let (action, ends, result_ty) = match &timed.action {
-            tree::Action::Ask(ask) => (self.ask(ask, timed)?, true, None),
-            action => self.action(action, timed.span)?,
+        self.has_one_end(timed);
+        let done = match &timed.action {
+            tree::Action::Ask(ask) => self.ask(ask, timed).map(|action| (action, true, None)),
+            action => self.action(action, timed.span),
+        };
+        let Some((action, ends, result_ty)) = done else {
+            // What is wrong with it has been told: its name is no second mistake.
+            bind.map(|(name, _)| self.declare(name, VarKind::Let, Type::Unknown));
+            return None;
         };
         let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));
         let within = timed.within.as_ref().map(|e| self.duration(e, "the time after `within`"));
@@ -108,6 +107,16 @@ impl<'t> Checker<'t> {
         }
         let timed = Timed { action, duration, until, within, at, result };
         Some(Stmt { kind: StmtKind::Timed(Box::new(timed)), span })
+    }
+
+    fn has_one_end(&mut self, timed: &tree::Timed) {
+        if let (Some(duration), Some(until)) = (&timed.duration, &timed.until) {
+            self.report(
+                Diagnostic::error(Code::TimeModifier, until.span, "`for` and `until` cannot both end this")
+                    .label(duration.span, "the other end")
+                    .help("write `until X` with `within T` to cut it off, or `until X or after T`"),
+            );
+        }
     }
 
     /// An expression with a modifier, where only what takes time can have one.

@@ -5,7 +5,7 @@ use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, Motion, OUTCOMES, ReportPart, TestNames, VarKind};
+use crate::hir::{Builtin, Expr, ExprKind, Interval, Motion, OUTCOMES, ReportPart, TestNames, Var, VarKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -225,6 +225,15 @@ impl<'t> Checker<'t> {
         self.names_used.refer(base.span, mission.span);
         self.names_used.refer(member.span, area.span);
         Some(self.variable(id, span))
+    }
+
+    /// The mission that a test runs, if it has a parameter or an area of a name.
+    pub(super) fn tested_that_has(&self, name: &str) -> Option<&str> {
+        let test = self.test.as_ref()?;
+        let mission = &self.hir.activities[test.mission];
+        let is_known =
+            |(nth, var): (usize, &Var)| var.name == name && (nth < mission.params || var.kind == VarKind::Area);
+        mission.vars.iter().enumerate().any(is_known).then(|| self.mission_name(test.mission))
     }
 
     /// The value that the mission is given for a parameter. It is the same whatever the mission does.

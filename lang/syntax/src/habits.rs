@@ -117,6 +117,9 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
     if first == "expect" && last == "never" {
         return only("write `expect always not (…)`");
     }
+    if first == "run" && before.contains(" seeds ") && rest.starts_with(',') {
+        return only("seeds are a range, with both its ends: `seeds 1..3`");
+    }
     if first == "run" && !(before.contains(" in ") && before.contains(" seeds ")) {
         return only("write `run MISSION in SCENARIO seeds 1..20`");
     }

@@ -117,7 +117,7 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
             Some(clause) => {
                 let of_clause = measurements::ALL.iter().filter(|row| row.instrument == Some(clause));
                 let brings: Vec<&str> = of_clause.map(|row| row.name).collect();
-                format!("give `{scenario}` the clause `{clause}`, which tells {}", brings.join(" and "))
+                format!("{}, which tells {}", given(script, scenario, clause), brings.join(" and "))
             }
             None => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
         };
@@ -129,11 +129,20 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
     required.iter().copied().chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
 }
 
+/// How a scenario is given a clause: one of another file stays as it is, and is that of which another is derived.
+fn given(script: &Script, scenario: &str, clause: &str) -> String {
+    if script.own_scenarios().any(|own| own == scenario) {
+        return format!("give `{scenario}` the clause `{clause}`");
+    }
+    let clause = if clause.ends_with(')') { clause.to_string() } else { format!("{clause}(…)") };
+    format!("run it in `scenario NAME = {scenario} with {{ {clause} }}`")
+}
+
 /// What the mission asks, and no payload of the vehicle answers.
 fn unanswered(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
     let finding = |(action, span): (String, Span)| {
         let message = format!("the vehicle of `{scenario}` has no payload that answers `{action}`");
-        let help = format!("give `{scenario}` the clause `payload(\"{action}\", after: 1 s)`");
+        let help = given(script, scenario, &format!("payload(\"{action}\", after: 1 s)"));
         Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
     };
     let has = |action: &str| world.payloads.iter().any(|payload| payload.is_of(action));
