@@ -53,7 +53,7 @@ pub struct Campaign {
     /// forgery: whoever writes a row can write its checksum.
     #[arg(long)]
     resume: bool,
-    /// Columns for so many reports of each name: a mission may report in a loop.
+    /// Columns for so many reports of each name, with what they hold: a mission may report in a loop.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1_to(REPORTS_MAX))]
     reports: usize,
     /// Runs at once; else as many as there are cores.

@@ -219,10 +219,10 @@ fn no_two_columns_have_one_name() {
         script(&folder, "columns.alb", &REPORTING.replace("report \"end, of \\\"all\\\"\": position", report));
     let table = table(&mission, "1", &folder.join("t.csv"), &[]);
     let mut names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    assert_eq!(names.len(), 11 + 2 * 4, "{names:?}");
+    assert_eq!(names.len(), 11 + 4 * 4, "{names:?}");
     names.sort_unstable();
     names.dedup();
-    assert_eq!(names.len(), 11 + 2 * 4, "{names:?}");
+    assert_eq!(names.len(), 11 + 4 * 4, "{names:?}");
 }
 
 #[test]

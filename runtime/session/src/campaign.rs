@@ -2,6 +2,7 @@
 
 mod cell;
 mod columns;
+mod report_columns;
 mod statistics;
 mod tally;
 

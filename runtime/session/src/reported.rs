@@ -141,7 +141,7 @@ fn shown(si: f64, display: &Display) -> f64 {
 }
 
 /// The unit of a quantity, or of all that a list or map holds. A share of one has none.
-fn unit(shape: &Shape) -> Option<String> {
+pub(crate) fn unit(shape: &Shape) -> Option<String> {
     match shape {
         Shape::Quantity(display) | Shape::Vector(display) => {
             (!display.unit.is_empty() && display.unit != "%").then(|| display.unit.clone())

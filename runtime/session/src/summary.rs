@@ -85,7 +85,7 @@ impl fmt::Display for Origin {
 }
 
 /// Something that was reported.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Its name.
     pub name: String,

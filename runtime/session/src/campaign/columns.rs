@@ -1,6 +1,7 @@
 //! The columns of a campaign's table, all known before the first run, and the cells of a row.
 
 use super::cell::plain;
+use super::report_columns::{ReportColumns, parts};
 use crate::summary::Summary;
 use albacore_program::{Program, number};
 
@@ -22,15 +23,12 @@ const FIXED: [&str; 11] = [
 /// Decimals of times: a tick is a tenth of a second.
 const SECOND_DECIMALS: u8 = 1;
 /// Decimals of lengths: so fine that no figure made from the table shows the rounding.
-const METRE_DECIMALS: u8 = 3;
+pub(super) const METRE_DECIMALS: u8 = 3;
 
 /// The columns of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
-    /// Further reports that have columns: the name, and which of that name it is, from 0.
-    further: Vec<(String, usize)>,
-    /// Which report of each name is the first of those.
-    from: usize,
+    reports: Vec<ReportColumns>,
     names: Vec<String>,
 }
 
@@ -44,8 +42,9 @@ pub struct Row {
 }
 
 impl Columns {
-    /// The columns for a program's runs. One that reports under several names has two columns for each of them, and for
-    /// each further report of a name that is asked for two more: how often a loop reports shows only when it runs.
+    /// The columns for a program's runs. What its reports hold has columns for the first report of each name, and for each further one that is
+    /// asked for: how often a loop reports shows only when it runs. So have their times and errors, but for those of the first report of an
+    /// only name, which are among the columns of every table.
     pub fn new(program: &Program, reports_of_each: usize) -> Self {
         let mut reported: Vec<&str> = Vec::new();
         for site in &program.reports {
@@ -53,20 +52,21 @@ impl Columns {
                 reported.push(&site.name);
             }
         }
+        let has_one_name = reported.len() == 1;
         let mut names: Vec<String> = FIXED.map(str::to_string).to_vec();
-        let mut further = Vec::new();
-        // The first report of an only name has its columns already.
-        let from = if reported.len() == 1 { 1 } else { 0 };
+        let mut reports = Vec::new();
         for name in reported {
-            for nth in from..reports_of_each {
-                let prefix = if nth == 0 { name.to_string() } else { format!("{name}_{}", nth + 1) };
-                for unit in ["t_s", "error_m"] {
-                    names.push(unused(&names, format!("{prefix}_{unit}")));
+            let parts = parts(&program.reports, name);
+            for nth in 0..reports_of_each {
+                let is_timed = nth > 0 || !has_one_name;
+                let columns = ReportColumns { name: name.to_string(), nth, is_timed, parts: parts.clone() };
+                for name in columns.names() {
+                    names.push(unused(&names, name));
                 }
-                further.push((name.to_string(), nth));
+                reports.push(columns);
             }
         }
-        Columns { further, names, from }
+        Columns { reports, names }
     }
 
     /// Their names.
@@ -76,9 +76,13 @@ impl Columns {
 
     /// How many of its reports a row tells.
     pub(super) fn report_count(&self, cells: &[&str]) -> usize {
-        let further = cells.iter().skip(FIXED.len()).step_by(2).filter(|t_s| !t_s.is_empty()).count();
-        let first = !Self::cell(cells, "report_t_s").is_empty();
-        if self.from == 0 { further } else { further + usize::from(first) }
+        let mut at = FIXED.len();
+        let is_told = |columns: &ReportColumns| {
+            let time = if columns.is_timed { cells.get(at) } else { None };
+            at += columns.names().count();
+            !time.copied().unwrap_or_else(|| Self::cell(cells, "report_t_s")).is_empty()
+        };
+        self.reports.iter().map(is_told).filter(|told| *told).count()
     }
 
     /// A cell of a row by the name of its column, which is one of every table.
@@ -102,10 +106,13 @@ impl Columns {
             run.digest.clone(),
             (run.reports.len() as u64 + run.more_reports).to_string(),
         ];
-        for (name, nth) in &self.further {
-            let report = run.reports.iter().filter(|r| r.name == *name).nth(*nth);
-            cells.push(seconds(report.map(|r| r.t_s)));
-            cells.push(metres(report.and_then(|r| r.error_m)));
+        for columns in &self.reports {
+            let report = run.reports.iter().filter(|r| r.name == columns.name).nth(columns.nth);
+            if columns.is_timed {
+                cells.push(seconds(report.map(|r| r.t_s)));
+                cells.push(metres(report.and_then(|r| r.error_m)));
+            }
+            cells.extend(columns.parts.iter().map(|part| report.map(|report| part.cell(report)).unwrap_or_default()));
         }
         Row { seed: run.seed, cells }
     }

@@ -1,0 +1,181 @@
+//! The columns of what reports hold: their values and what stands behind their labels, a column for each number, word and coordinate in it.
+//! Lists, areas, lines and maps stand in one cell, as JSON.
+
+use super::columns::METRE_DECIMALS;
+use crate::reported;
+use crate::summary::Report;
+use albacore_program::{ReportSite, Shape, number};
+use serde_json::Value;
+
+/// The columns of one report of a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct ReportColumns {
+    pub name: String,
+    /// Which report of that name it is, from 0.
+    pub nth: usize,
+    /// Whether its time and error have columns here: those of the first report stand among the columns of every table.
+    pub is_timed: bool,
+    pub parts: Vec<Part>,
+}
+
+/// A part of a report that has a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Part {
+    label: String,
+    /// The fields of records that lead to it.
+    fields: Vec<String>,
+    unit: Option<String>,
+    /// Which coordinate it is of a place or a vector.
+    coordinate: Option<&'static str>,
+}
+
+impl ReportColumns {
+    /// Their names, not all of which need be different.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        let Self { name, nth, .. } = self;
+        let prefix = if *nth == 0 { name.clone() } else { format!("{name}_{}", nth + 1) };
+        let timed = ["t_s", "error_m"].into_iter().filter(|_| self.is_timed).map(str::to_string);
+        let parts = self.parts.iter().map(Part::name);
+        let names: Vec<String> = timed.chain(parts).collect();
+        names.into_iter().map(move |name| if name.is_empty() { prefix.clone() } else { format!("{prefix}_{name}") })
+    }
+}
+
+/// The parts of all that is reported under a name.
+pub(super) fn parts(sites: &[ReportSite], name: &str) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for (label, value) in sites.iter().filter(|site| site.name == name).flat_map(|site| &site.fields) {
+        let part = Part { label: label.clone(), fields: Vec::new(), unit: None, coordinate: None };
+        for part in part.of(&value.shape) {
+            if !parts.contains(&part) {
+                parts.push(part);
+            }
+        }
+    }
+    parts
+}
+
+impl Part {
+    /// What of a value with a shape has columns.
+    fn of(self, shape: &Shape) -> Vec<Part> {
+        let coordinates = |names: [&'static str; 2], unit: Option<String>| {
+            names.map(|name| Part { coordinate: Some(name), unit: unit.clone(), ..self.clone() }).to_vec()
+        };
+        match shape {
+            Shape::Optional(shape) => self.of(shape),
+            Shape::Point => coordinates(["north_m", "east_m"], None),
+            Shape::Vector(_) => coordinates(["north", "east"], reported::unit(shape)),
+            Shape::Record(_, fields) => {
+                let of_field = |(field, shape): &(String, Shape)| {
+                    let mut part = self.clone();
+                    part.fields.push(field.clone());
+                    part.of(shape)
+                };
+                fields.iter().flat_map(of_field).collect()
+            }
+            _ => vec![Part { unit: reported::unit(shape), ..self }],
+        }
+    }
+
+    /// What it is called behind the name of its report: of a value that is one number without a unit there is nothing to say.
+    fn name(&self) -> String {
+        let unit = self.unit.as_ref().map(|unit| unit.replace(|c: char| !c.is_ascii_alphanumeric() && c != '%', "_"));
+        let words = [Some(self.label.clone())].into_iter().chain(self.fields.iter().cloned().map(Some));
+        let words = words.chain([self.coordinate.map(str::to_string), unit]).flatten();
+        words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
+    }
+
+    /// Its cell in the row of a run; empty where the report has no such part, or holds nothing there.
+    pub fn cell(&self, report: &Report) -> String {
+        let value = if self.label.is_empty() { Some(&report.value) } else { report.labelled.get(&self.label) };
+        let value = self.fields.iter().try_fold(value.unwrap_or(&Value::Null), |value, field| value.get(field));
+        let value = match &self.unit {
+            Some(unit) => value.filter(|value| value["unit"] == unit.as_str()).and_then(|value| value.get("value")),
+            None => value,
+        };
+        let value = value.and_then(|value| self.coordinate.map_or(Some(value), |name| value.get(name)));
+        match value {
+            None | Some(Value::Null) => String::new(),
+            Some(Value::String(text)) => text.clone(),
+            Some(Value::Number(number)) if number.is_f64() => {
+                let is_in_metres =
+                    self.unit.as_deref() == Some("m") || self.coordinate.is_some_and(|c| c.ends_with("_m"));
+                let cell = |x| if is_in_metres { number::fixed(x, METRE_DECIMALS) } else { nine_digits(x) };
+                number.as_f64().map(cell).unwrap_or_default()
+            }
+            Some(other) => other.to_string(),
+        }
+    }
+}
+
+/// A number with so many digits that no figure made from the table shows the rounding.
+fn nine_digits(x: f64) -> String {
+    format!("{x:.8e}").parse::<f64>().unwrap_or(x).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ReportColumns, nine_digits, parts};
+    use crate::summary::Report;
+    use albacore_program::{Display, ReportSite, Shape, Valued};
+    use serde_json::json;
+
+    fn site(fields: &[(&str, Shape)]) -> ReportSite {
+        let field = |(label, shape): &(&str, Shape)| (label.to_string(), Valued { slot: 0, shape: shape.clone() });
+        ReportSite { name: "visit".into(), fields: fields.iter().map(field).collect() }
+    }
+
+    fn quantity(unit: &str) -> Shape {
+        Shape::Quantity(Display { unit: unit.into(), scale: 1.0, decimals: 1 })
+    }
+
+    #[test]
+    fn each_number_word_and_coordinate_has_a_column() {
+        let record = Shape::Record("Seen".into(), vec![("at".into(), Shape::Point), ("speed".into(), quantity("m/s"))]);
+        let fields = [
+            ("", Shape::Optional(Box::new(Shape::Point))),
+            ("number", Shape::Int),
+            ("share", quantity("%")),
+            ("seen", record),
+            ("outline", Shape::Area(16)),
+        ];
+        let parts = parts(&[site(&fields), site(&[("", quantity("m"))])], "visit");
+        let columns = ReportColumns { name: "visit".into(), nth: 1, is_timed: true, parts };
+        let names = [
+            "visit_2_t_s",
+            "visit_2_error_m",
+            "visit_2_north_m",
+            "visit_2_east_m",
+            "visit_2_number",
+            "visit_2_share",
+            "visit_2_seen_at_north_m",
+            "visit_2_seen_at_east_m",
+            "visit_2_seen_speed_m_s",
+            "visit_2_outline",
+            "visit_2_m",
+        ];
+        assert_eq!(columns.names().collect::<Vec<_>>(), names);
+        let place = json!({ "north_m": 1.5, "east_m": -2.0, "latitude_deg": 36.0 });
+        let labelled = json!({
+            "number": 3,
+            "share": 0.123_456_789_123,
+            "seen": { "at": place, "speed": { "value": 1.5, "unit": "m/s" } },
+            "outline": { "corners": [] },
+        });
+        let labelled = serde_json::from_value(labelled).unwrap();
+        let cells = |report: &Report| columns.parts.iter().map(|part| part.cell(report)).collect::<Vec<_>>();
+        let first = cells(&Report { value: place, labelled, ..Report::default() });
+        assert_eq!(first, ["1.500", "-2.000", "3", "0.123456789", "1.500", "-2.000", "1.5", "{\"corners\":[]}", ""]);
+        // Another statement reports under the same name, a length.
+        let other = cells(&Report { value: json!({ "value": 4.0, "unit": "m" }), ..Report::default() });
+        assert_eq!(other, ["", "", "", "", "", "", "", "", "4.000"]);
+    }
+
+    #[test]
+    fn numbers_have_nine_digits() {
+        assert_eq!(
+            [0.1 + 0.2, 1e-12 / 3.0, 123_456_789_012.0].map(nine_digits),
+            ["0.3", "0.000000000000333333333", "123456789000"]
+        );
+    }
+}
