@@ -341,6 +341,11 @@ fn how_the_vehicle_truly_moves_is_held_to_tolerances() {
 }
 
 #[test]
+fn the_water_is_asked_for_without_an_instrument() {
+    insta::assert_snapshot!(failed_beside("water", include_str!("test_verb/water.alb"), 1));
+}
+
+#[test]
 fn each_row_of_a_table_is_held_to_all_that_is_expected() {
     insta::assert_snapshot!(failed_beside("rows", include_str!("test_verb/rows.alb"), 2));
 }

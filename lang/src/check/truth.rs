@@ -5,7 +5,7 @@ use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, Motion, OUTCOMES, ReportPart, TestNames, Var, VarKind};
+use crate::hir::{Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, TrueInput, Var, VarKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -13,7 +13,7 @@ use albacore_wording::listed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// What stands after `truth`, beside how the vehicle moves.
+/// What stands after `truth`, beside the inputs.
 const TRUTHS: [&str; 7] = ["position", "nearest_source", "source", "start", "deepest", "depth_at", "beacon"];
 /// The questions for a report.
 const QUESTIONS: [&str; 6] =
@@ -73,7 +73,7 @@ impl<'t> Checker<'t> {
             reports: Vec::new(),
             sources: Vec::new(),
             beacon: None,
-            motion: Vec::new(),
+            inputs: Vec::new(),
         };
         // It has run for no time yet, or for some.
         self.scope.vars[vars.time].range = Interval::new(0.0, RUN_MAX_S);
@@ -122,8 +122,8 @@ impl<'t> Checker<'t> {
                 let id = self.beacon_var(span);
                 return Some(self.taken_for_granted(id, NO_BEACON.to_string(), span));
             }
-            ("truth", other) => match Motion::ALL.into_iter().find(|motion| motion.name() == other) {
-                Some(motion) => self.motion_var(motion, span),
+            ("truth", other) => match TrueInput::ALL.into_iter().find(|input| input.name() == other) {
+                Some(input) => self.true_input(input, span),
                 None => return Some(self.no_truth(other, member.span, span)),
             },
             _ => return None,
@@ -143,25 +143,25 @@ impl<'t> Checker<'t> {
         id
     }
 
-    /// The variable that holds how the vehicle truly lies or moves: one for each of these.
-    fn motion_var(&mut self, motion: Motion, span: Span) -> usize {
-        let known = self.test.as_ref().and_then(|test| test.names.motion.iter().find(|(known, _)| *known == motion));
+    /// The variable that holds what an input would truly tell: one for each of these.
+    fn true_input(&mut self, input: TrueInput, span: Span) -> usize {
+        let known = self.test.as_ref().and_then(|test| test.names.inputs.iter().find(|(known, _)| *known == input));
         if let Some(&(_, id)) = known {
             return id;
         }
-        let id = self.declare_hidden(format!("truth.{}", motion.name()), VarKind::Signal, motion.ty(), span);
-        if motion == Motion::Speed {
+        let id = self.declare_hidden(format!("truth.{}", input.name()), VarKind::Signal, input.ty(), span);
+        if input == TrueInput::Speed {
             self.scope.vars[id].range = Interval::new(0.0, SPEED_MAX);
         }
         if let Some(test) = &mut self.test {
-            test.names.motion.push((motion, id));
+            test.names.inputs.push((input, id));
         }
         id
     }
 
     /// Says that there is no such member of `truth`.
     fn no_truth(&mut self, asked: &str, named: Span, span: Span) -> Expr {
-        let known: Vec<&str> = TRUTHS.into_iter().chain(Motion::ALL.map(Motion::name)).collect();
+        let known: Vec<&str> = TRUTHS.into_iter().chain(TrueInput::ALL.map(TrueInput::name)).collect();
         let finding = Diagnostic::error(Code::TestsTruth, named, format!("there is no `truth.{asked}` to ask for"));
         let finding = match self.nearest(asked.trim_end_matches("(…)"), known.iter().copied()) {
             Some(near) => finding.help(format!("did you mean `truth.{near}`?")),

@@ -106,45 +106,67 @@ pub struct TestNames<T> {
     pub sources: Vec<(String, T)>,
     /// Where the beacon truly is, if there is one and that is asked for.
     pub beacon: Option<T>,
-    /// How the vehicle truly lies and moves, where that is asked for.
-    pub motion: Vec<(Motion, T)>,
+    /// What inputs would truly tell, where that is asked for.
+    pub inputs: Vec<(TrueInput, T)>,
 }
 
 /// How a run of a test may have ended, by the names of the outcomes. One that has failed holds to nothing.
 pub const OUTCOMES: [&str; 6] = ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "aground"];
 
-/// What a test asks of how the vehicle truly lies and moves.
+/// What a test asks of how the vehicle truly lies and moves, and of the water there: by the name of the input that tells it with errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "each variant is what it says")]
-pub enum Motion {
+pub enum TrueInput {
     Depth,
     Altitude,
     Heading,
     Course,
     Speed,
+    Temperature,
+    Salinity,
+    Chemical,
+    Flow,
 }
 
-impl Motion {
+impl TrueInput {
     /// All of them.
-    pub const ALL: [Motion; 5] = [Motion::Depth, Motion::Altitude, Motion::Heading, Motion::Course, Motion::Speed];
+    pub const ALL: [TrueInput; 9] = [
+        TrueInput::Depth,
+        TrueInput::Altitude,
+        TrueInput::Heading,
+        TrueInput::Course,
+        TrueInput::Speed,
+        TrueInput::Temperature,
+        TrueInput::Salinity,
+        TrueInput::Chemical,
+        TrueInput::Flow,
+    ];
 
     /// As it stands after `truth`.
     pub const fn name(self) -> &'static str {
         match self {
-            Motion::Depth => "depth",
-            Motion::Altitude => "altitude",
-            Motion::Heading => "heading",
-            Motion::Course => "course",
-            Motion::Speed => "speed",
+            TrueInput::Depth => "depth",
+            TrueInput::Altitude => "altitude",
+            TrueInput::Heading => "heading",
+            TrueInput::Course => "course",
+            TrueInput::Speed => "speed",
+            TrueInput::Temperature => "temperature",
+            TrueInput::Salinity => "salinity",
+            TrueInput::Chemical => "chemical",
+            TrueInput::Flow => "flow",
         }
     }
 
     /// The type of its value.
     pub const fn ty(self) -> Type {
         match self {
-            Motion::Depth | Motion::Altitude => Type::Quantity(Dimension::LENGTH),
-            Motion::Heading | Motion::Course => Type::Heading,
-            Motion::Speed => Type::Quantity(Dimension::SPEED),
+            TrueInput::Depth | TrueInput::Altitude => Type::Quantity(Dimension::LENGTH),
+            TrueInput::Heading | TrueInput::Course => Type::Heading,
+            TrueInput::Speed => Type::Quantity(Dimension::SPEED),
+            TrueInput::Temperature => Type::Quantity(Dimension::TEMPERATURE),
+            TrueInput::Salinity => Type::Quantity(Dimension::SALINITY),
+            TrueInput::Chemical => Type::Quantity(Dimension::NONE),
+            TrueInput::Flow => Type::Vector(Dimension::SPEED),
         }
     }
 }
@@ -209,7 +231,7 @@ impl<T: Copy> TestNames<T> {
             reports: self.reports.iter().map(report).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
             beacon: self.beacon.map(&f),
-            motion: self.motion.iter().map(|(motion, x)| (*motion, f(*x))).collect(),
+            inputs: self.inputs.iter().map(|(input, x)| (*input, f(*x))).collect(),
         }
     }
 }

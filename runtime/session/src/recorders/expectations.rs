@@ -4,10 +4,11 @@ use super::Recorder;
 use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::hir::{Motion, OUTCOMES, ReportPart, When};
+use albacore_lang::hir::{OUTCOMES, ReportPart, TrueInput, When};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Outcome};
 use albacore_program::{ActivityId, Display, Shape, number};
+use albacore_sim::Scenario;
 use albacore_trace::{Step, TickRecord, areas};
 use albacore_vehicle::{Truth, seconds};
 
@@ -16,7 +17,7 @@ pub(crate) struct Expectations<'t> {
     test: &'t TestProgram,
     results: Results,
     evaluation: Evaluation,
-    /// How the vehicle truly lies and moves.
+    /// What is truly so of the vehicle and where it is.
     truth: Truth,
     /// The words of the mission's areas, one after another.
     areas: Vec<f64>,
@@ -159,8 +160,8 @@ impl<'t> Expectations<'t> {
             let beacon = results.plan.scenario.environment.beacon.as_ref().map(|beacon| beacon.position(time));
             evaluation.set(slot, &if_any(beacon));
         }
-        for (motion, slot) in &slots.motion {
-            evaluation.set(*slot, &[of(*motion, &truth)]);
+        for (input, slot) in &slots.inputs {
+            evaluation.set(*slot, &true_words(*input, &truth, &results.plan.scenario));
         }
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
@@ -254,14 +255,19 @@ fn is_nearly_round(x: f64) -> bool {
     x != round && (x - round).abs() < 1e-9
 }
 
-/// A part of the truth, in metres, radians and metres a second.
-fn of(motion: Motion, truth: &Truth) -> f64 {
-    match motion {
-        Motion::Depth => truth.depth,
-        Motion::Altitude => truth.altitude,
-        Motion::Heading => truth.heading.radians(),
-        Motion::Course => truth.course.radians(),
-        Motion::Speed => truth.speed_over_ground,
+/// The words of what an input would truly tell, in SI units. The water's layers are as the scenario has them, everywhere and always.
+fn true_words(input: TrueInput, truth: &Truth, scenario: &Scenario) -> Vec<f64> {
+    let layers = || scenario.environment.stratification.at(truth.depth);
+    match input {
+        TrueInput::Depth => vec![truth.depth],
+        TrueInput::Altitude => vec![truth.altitude],
+        TrueInput::Heading => vec![truth.heading.radians()],
+        TrueInput::Course => vec![truth.course.radians()],
+        TrueInput::Speed => vec![truth.speed_over_ground],
+        TrueInput::Temperature => vec![layers().0],
+        TrueInput::Salinity => vec![layers().1],
+        TrueInput::Chemical => vec![truth.concentration],
+        TrueInput::Flow => vec![truth.flow.north, truth.flow.east],
     }
 }
 
