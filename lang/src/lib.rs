@@ -291,10 +291,11 @@ impl Script {
         recorded.into_iter().map(|(input, span)| (self.hir.inputs[input].name.as_str(), span)).collect()
     }
 
-    /// The shape of an input, without its further fields.
-    pub fn input_shape(&self, name: &str) -> Option<Shape> {
+    /// The shape of an input, and of its further fields by their labels.
+    pub fn input_shapes(&self, name: &str) -> Option<(Shape, Vec<(&str, Shape)>)> {
         let input = self.hir.inputs.iter().find(|input| input.name == name)?;
-        Some(self.types.shape(&input.ty))
+        let fields = input.fields.iter().map(|(label, ty)| (label.as_str(), self.types.shape(ty)));
+        Some((self.types.shape(&input.ty), fields.collect()))
     }
 
     /// What a mission asks of payloads, such as `camera.start`, each with the place where it does so first.

@@ -1,13 +1,13 @@
-//! Numbers over time, a column of a table such as a run records:
+//! Numbers over time, some columns of a table such as a run records:
 //!
 //! ```text
-//! time (s),depth (m),temperature (degC)
-//! 1.0,3.02,14.2
-//! 2.0,3.01,
+//! time (s),depth (m),temperature (degC),flow.north (m/s),flow.east (m/s)
+//! 1.0,3.02,14.2,,
+//! 2.0,3.01,,0.12,-0.03
 //! ```
 //!
-//! It is CSV as RFC 4180 has it, but that no cell goes over the end of its line. The head names the columns, each with its unit; the column
-//! that is asked for is read, and the others are passed over. Times rise. A cell without anything is no sample.
+//! It is CSV as RFC 4180 has it, but that no cell goes over the end of its line. The head names the columns, each with its unit; those
+//! that are asked for are read, and the others are passed over. Times rise. Cells without anything are no sample.
 
 use crate::fault::{Fault, Faults, Unreadable, counted, listed, shortened};
 
@@ -20,18 +20,40 @@ const TIME_MAX_S: f64 = 3.6e7;
 /// A table has at most so many columns.
 const COLUMNS_MAX: usize = 1000;
 
-/// The columns that are read, by their heads.
+/// A sample has at most so many numbers.
+const NUMBERS_MAX: usize = 4;
+
+/// The numbers of a sample, each in the unit of its column; 0 where it has fewer.
+pub type Numbers = [f64; NUMBERS_MAX];
+
+/// What is read of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Columns<'a> {
-    /// That of the times, in seconds: `time (s)`.
+    /// The head of the times, in seconds: `time (s)`.
     pub time: &'a str,
-    /// That of the numbers, with their unit if they have one: `temperature (degC)`.
-    pub number: &'a str,
+    /// What is measured: `position`.
+    pub name: &'a str,
+    /// The columns of its numbers, in their order in a sample.
+    pub numbers: &'a [Column],
 }
 
-/// Reads the samples of a table, each its time in s and its number in the unit of its column, else tells all that is wrong. A number that
-/// cannot be is wrong.
-pub fn read(bytes: &[u8], columns: Columns, can_be: impl Fn(f64) -> bool) -> Result<Vec<(f64, f64)>, Unreadable> {
+/// A column of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its head, with its unit if it has one: `temperature (degC)`.
+    pub head: String,
+    /// What its numbers are in a table that has no such column; none: a table has it.
+    pub otherwise: Option<f64>,
+    /// Whether its numbers stand in every row, those of an earlier sample too. Beside others they are a sample where these stand as well.
+    pub is_standing: bool,
+}
+
+/// Reads the samples of a table, each its time in s and its numbers, else tells all that is wrong. Numbers that cannot be are wrong.
+pub fn read(
+    bytes: &[u8],
+    columns: Columns,
+    can_be: impl Fn(Numbers) -> bool,
+) -> Result<Vec<(f64, Numbers)>, Unreadable> {
     let mut faults = Faults::default();
     let samples = read_into(bytes, columns, can_be, &mut faults).unwrap_or_default();
     match faults.into_unreadable() {
@@ -44,9 +66,9 @@ pub fn read(bytes: &[u8], columns: Columns, can_be: impl Fn(f64) -> bool) -> Res
 fn read_into(
     bytes: &[u8],
     columns: Columns,
-    can_be: impl Fn(f64) -> bool,
+    can_be: impl Fn(Numbers) -> bool,
     faults: &mut Faults,
-) -> Option<Vec<(f64, f64)>> {
+) -> Option<Vec<(f64, Numbers)>> {
     let text = faults.take(text(bytes))?;
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
     let Some((line, head)) = lines.next() else {
@@ -54,16 +76,17 @@ fn read_into(
         return None;
     };
     let head = faults.take(cells(line, head))?;
-    let (time, number) = (columns.time_among(&head, line, faults), columns.number_among(&head, line, faults));
-    let (time, number) = (time?, number?);
+    let (time, numbers) = (columns.time_among(&head, line, faults), columns.numbers_among(&head, line, faults));
+    let (time, numbers) = (time?, numbers?);
     let mut samples = Vec::new();
     let mut before = None;
     for (line, row) in lines {
         let Some(row) = faults.take(cells(line, row).and_then(|row| whole(line, row, head.len()))) else { continue };
         let Some(at) = faults.take(moment(line, &row[time], before)) else { continue };
         before = Some(at);
-        if let Some(x) = faults.take(columns.sample(line, &row[number], &can_be)).flatten() {
-            samples.push((at, x));
+        let cells: Vec<Option<&str>> = numbers.iter().map(|place| place.map(|place| row[place].as_str())).collect();
+        if let Some(numbers) = faults.take(columns.sample(line, &cells, &can_be)).flatten() {
+            samples.push((at, numbers));
         }
     }
     Some(samples)
@@ -135,19 +158,16 @@ fn moment(line: usize, cell: &str, before: Option<f64>) -> Result<f64, Fault> {
 }
 
 impl Columns<'_> {
-    /// What is measured, without its unit.
-    fn name(&self) -> &str {
-        self.number.split(" (").next().unwrap_or_default()
-    }
-
-    /// A head that has both, for who has none.
+    /// A head that has them all, for who has none.
     fn example(&self) -> String {
-        format!("begin it with a head such as `{},{}`, as `record {}` writes it", self.time, self.number, self.name())
+        let heads: Vec<&str> = std::iter::once(self.time).chain(self.numbers.iter().map(|c| c.head.as_str())).collect();
+        format!("begin it with a head such as `{}`, as `record {}` writes it", heads.join(","), self.name)
     }
 
     fn nothing(&self) -> Fault {
-        let help = "give it rows, each with a time and a number, or leave the clause out";
-        Fault::new(format!("no row holds a sample of `{}`", self.name()), help)
+        let numbers = if self.numbers.len() == 1 { "a number" } else { "its numbers" };
+        let help = format!("give it rows, each with a time and {numbers}, or leave the clause out");
+        Fault::new(format!("no row holds a sample of `{}`", self.name), help)
     }
 
     fn time_among(&self, head: &[String], line: usize, faults: &mut Faults) -> Option<usize> {
@@ -157,39 +177,85 @@ impl Columns<'_> {
         }))
     }
 
-    fn number_among(&self, head: &[String], line: usize, faults: &mut Faults) -> Option<usize> {
-        let (name, own) = (self.name(), self.number);
-        let missing = || match head.iter().find(|other| other.split(['(', ' ']).next() == Some(name)) {
+    /// Where each of the columns stands that the table has, if it has all that it needs.
+    fn numbers_among(&self, head: &[String], line: usize, faults: &mut Faults) -> Option<Vec<Option<usize>>> {
+        let places: Vec<_> = self.numbers.iter().map(|column| faults.take(column.among(head, line))).collect();
+        places.into_iter().collect()
+    }
+
+    /// The sample of a row, if there is one in it, of the cells of the columns that the table has.
+    fn sample(
+        &self,
+        line: usize,
+        cells: &[Option<&str>],
+        can_be: impl Fn(Numbers) -> bool,
+    ) -> Result<Option<Numbers>, Fault> {
+        let mut numbers = Numbers::default();
+        for ((column, cell), number) in self.numbers.iter().zip(cells).zip(&mut numbers) {
+            *number = match cell {
+                None => column.otherwise.unwrap_or_default(),
+                Some("") => 0.0,
+                Some(cell) => cell.parse().map_err(|_| no_number(line, cell))?,
+            };
+        }
+        if !self.is_told(line, cells)? {
+            return Ok(None);
+        }
+        if can_be(numbers) {
+            return Ok(Some(numbers));
+        }
+        let told: Vec<String> = cells.iter().flatten().map(|cell| shortened(cell)).collect();
+        let (name, help) = match self.numbers {
+            [column] => (&*column.head, "correct it, or leave the cell empty: then no sample comes"),
+            _ => (self.name, "correct it, or leave its cells empty: then no sample comes"),
+        };
+        Err(Fault::new(format!("line {line}: no `{name}` is {}", told.join(", ")), help))
+    }
+
+    /// Whether there is a sample in the cells of a row: those that stand together are all filled, or all empty.
+    fn is_told(&self, line: usize, cells: &[Option<&str>]) -> Result<bool, Fault> {
+        let mut is_told = true;
+        for is_standing in [true, false] {
+            let together = self.numbers.iter().zip(cells).filter(|(column, _)| column.is_standing == is_standing);
+            let together = together.filter_map(|(column, cell)| Some((&column.head, (*cell)?)));
+            let (empty, filled): (Vec<_>, Vec<_>) = together.partition(|(_, cell)| cell.is_empty());
+            is_told &= empty.is_empty();
+            if let (Some((empty, _)), Some((filled, _))) = (empty.first(), filled.first()) {
+                let message = format!("line {line} has `{filled}`, and no `{empty}`");
+                let help = "give both, or leave the cells of both empty: then no sample comes";
+                return Err(Fault::new(message, help));
+            }
+        }
+        Ok(is_told)
+    }
+}
+
+impl Column {
+    /// Where it stands in a table; nowhere, if a table may do without it.
+    fn among(&self, head: &[String], line: usize) -> Result<Option<usize>, Fault> {
+        let own = &self.head;
+        if let Some(place) = place(head, own, line)? {
+            return Ok(Some(place));
+        }
+        let name = own.split(" (").next();
+        match head.iter().find(|other| other.split(['(', ' ']).next() == name) {
             Some(other) => {
                 let message = format!("line {line}: `{}` is not in the unit of `{own}`", shortened(other));
-                Fault::new(message, format!("convert its numbers, and call it `{own}`"))
+                Err(Fault::new(message, format!("convert its numbers, and call it `{own}`")))
             }
+            None if self.otherwise.is_some() => Ok(None),
             None => {
                 let message = format!("line {line} names no column `{own}`");
                 let others = listed(head.iter().map(String::as_str));
-                Fault::new(message, format!("call it so; the file has {others}"))
+                Err(Fault::new(message, format!("call it so; the file has {others}")))
             }
-        };
-        faults.take(place(head, own, line).and_then(|place| place.ok_or_else(missing)))
+        }
     }
+}
 
-    /// The sample of a cell, if there is one in it.
-    fn sample(&self, line: usize, cell: &str, can_be: impl Fn(f64) -> bool) -> Result<Option<f64>, Fault> {
-        if cell.is_empty() {
-            return Ok(None);
-        }
-        match cell.parse::<f64>() {
-            Ok(x) if can_be(x) => Ok(Some(x)),
-            Ok(_) => Err(Fault::new(
-                format!("line {line}: no `{}` is {}", self.number, shortened(cell)),
-                "correct it, or leave the cell empty: then no sample comes",
-            )),
-            Err(_) => Err(Fault::new(
-                format!("line {line}: `{}` is no number", shortened(cell)),
-                "write it with a point, such as `12.5`, or leave the cell empty: then no sample comes",
-            )),
-        }
-    }
+fn no_number(line: usize, cell: &str) -> Fault {
+    let help = "write it with a point, such as `12.5`, or leave the cell empty: then no sample comes";
+    Fault::new(format!("line {line}: `{}` is no number", shortened(cell)), help)
 }
 
 /// Where a column stands, if it is there.
@@ -206,11 +272,32 @@ fn place(head: &[String], name: &str, line: usize) -> Result<Option<usize>, Faul
 mod tests {
     use super::*;
 
-    const COLUMNS: Columns = Columns { time: "time (s)", number: "temperature (degC)" };
+    fn column(head: &str) -> Column {
+        Column { head: head.to_string(), otherwise: None, is_standing: false }
+    }
+
+    /// What is told of a reading, or of what is wrong.
+    fn told<T>(
+        read: Result<Vec<(f64, Numbers)>, Unreadable>,
+        of: fn((f64, Numbers)) -> T,
+    ) -> Result<Vec<T>, Vec<String>> {
+        let messages = |wrong: Unreadable| wrong.faults.into_iter().map(|fault| fault.message).collect();
+        read.map(|samples| samples.into_iter().map(of).collect()).map_err(messages)
+    }
 
     fn read(text: &str) -> Result<Vec<(f64, f64)>, Vec<String>> {
-        let told = |unreadable: Unreadable| unreadable.faults.into_iter().map(|fault| fault.message).collect();
-        super::read(text.as_bytes(), COLUMNS, |x| (-5.0..=50.0).contains(&x)).map_err(told)
+        let columns = Columns { time: "time (s)", name: "temperature", numbers: &[column("temperature (degC)")] };
+        let samples = super::read(text.as_bytes(), columns, |[x, ..]| (-5.0..=50.0).contains(&x));
+        told(samples, |(time, [x, ..])| (time, x))
+    }
+
+    /// Places, with a sigma of 7 m where the table has none.
+    fn read_places(text: &str) -> Result<Vec<[f64; 4]>, Vec<String>> {
+        let place = |head| Column { is_standing: true, ..column(head) };
+        let sigma = Column { otherwise: Some(7.0), ..column("position.sigma (m)") };
+        let numbers = [place("north (m)"), place("east (m)"), sigma];
+        let columns = Columns { time: "time (s)", name: "position", numbers: &numbers };
+        told(super::read(text.as_bytes(), columns, |[n, ..]| n < 1e5), |(time, [n, e, sigma, _])| [time, n, e, sigma])
     }
 
     #[test]
@@ -269,16 +356,44 @@ mod tests {
         );
     }
 
+    #[test]
+    fn a_sample_has_all_of_its_numbers() {
+        let places = |rows: &str| read_places(&format!("time (s),north (m),east (m),position.sigma (m)\n{rows}"));
+        // A place that stands there without a sigma of its own is that of an earlier sample; one that is old stands there no more.
+        assert_eq!(places("1,2,3,4\n2,2,3,\n3,,,\n4,,,5\n5,6,7,8").unwrap(), [[1., 2., 3., 4.], [5., 6., 7., 8.]]);
+        assert_eq!(
+            places("1,2,,4\n2,,3,\n3,1e6,0,1\n4,x,0,").unwrap_err(),
+            [
+                "line 2 has `north (m)`, and no `east (m)`; line 3 has `east (m)`, and no `north (m)`",
+                "line 4: no `position` is 1e6, 0, 1",
+                "line 5: `x` is no number"
+            ]
+        );
+        assert_eq!(places("1,2,3,").unwrap_err(), ["no row holds a sample of `position`"]);
+        assert_eq!(read_places("east (m),time (s),north (m)\n3,1,2\n").unwrap(), [[1., 2., 3., 7.]]);
+        let head = |head: &str| read_places(&format!("time (s),{head}\n1,2,3,4\n")).unwrap_err();
+        assert_eq!(
+            head("latitude (deg),longitude (deg),depth (m)"),
+            ["line 1 names no column `north (m)`; line 1 names no column `east (m)`"]
+        );
+        assert_eq!(
+            head("north (m),east (m),position.sigma (km)"),
+            ["line 1: `position.sigma (km)` is not in the unit of `position.sigma (m)`"]
+        );
+    }
+
     /// Whatever the bytes are, reading them ends in samples or in what is wrong.
     #[test]
     fn no_bytes_are_too_strange() {
-        let whole = b"time (s),temperature (degC)\n0.0,\"12.5\"\n1.0,13\n";
+        let numbers = [column("temperature (degC)"), Column { otherwise: Some(0.0), ..column("more") }];
+        let columns = Columns { time: "time (s)", name: "temperature", numbers: &numbers };
+        let whole = b"time (s),temperature (degC),more\n0.0,\"12.5\",1\n1.0,13,2\n";
         for at in 0..whole.len() {
             for byte in [0, b'"', b',', b'\n', b'-', 0xff] {
                 let mut bytes = whole.to_vec();
                 bytes[at] = byte;
-                let _ = super::read(&bytes, COLUMNS, f64::is_finite);
-                let _ = super::read(&bytes[..at], COLUMNS, f64::is_finite);
+                let _ = super::read(&bytes, columns, |_| true);
+                let _ = super::read(&bytes[..at], columns, |_| true);
             }
         }
     }

@@ -22,7 +22,7 @@ pub(crate) use clause::Clause;
 pub(crate) use defaults::DEFAULTS;
 pub(crate) use named::{cannot_begin, named, place_of, sound};
 pub(crate) use objected::objected;
-pub(crate) use played::shape;
+pub(crate) use played::parts;
 use serde::Deserialize;
 
 /// A scenario that was understood.

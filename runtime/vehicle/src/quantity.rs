@@ -39,9 +39,9 @@ impl Quantity {
         }
     }
 
-    /// Whether it is one number with a unit.
-    pub const fn is_scalar(self) -> bool {
-        self.width() == 1 && !matches!(self, Quantity::Word | Quantity::Date)
+    /// Whether its numbers are measured, each in a unit: a word has none, and a date is told by a clock.
+    pub const fn is_measured(self) -> bool {
+        !matches!(self, Quantity::Word | Quantity::Date)
     }
 
     /// Whether a reading can be: the ocean is 11 km deep, no tide runs at 10 m/s, no vehicle of ours at 15.

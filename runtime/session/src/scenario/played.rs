@@ -1,15 +1,15 @@
-//! What a sensor tells as it was recorded: a column of a file such as `record` writes.
+//! What a sensor tells as it was recorded: columns of a file such as `record` writes.
 
 use super::{Understood, Wrong};
 use crate::files::{Files, load_text};
 use crate::recorders::recorded::{RECORDED_BYTES_MAX, cells};
-use albacore_formats::series::{self, Columns};
+use albacore_formats::series::{self, Column, Columns, Numbers};
 use albacore_geometry::Heading;
 use albacore_lang::Script;
 use albacore_lang::source::Source;
 use albacore_program::Shape;
 use albacore_sim::{Played, PlayedSample};
-use albacore_vehicle::measurements::{self, BEACON, WATER_DEPTH};
+use albacore_vehicle::measurements::{self, UTC, WATER_DEPTH};
 use albacore_vehicle::{Quantity, TICK_S};
 use albacore_wording::nearest;
 use serde::Deserialize;
@@ -26,36 +26,65 @@ pub struct PlayedClause {
 /// The inputs that every script knows, and so their units.
 static INPUTS: LazyLock<Script> = LazyLock::new(|| load_text(Source { name: "".into(), text: "".into() }));
 
-/// The shape of the input of a name.
-pub fn shape(name: &str) -> Option<Shape> {
-    INPUTS.input_shape(name)
+/// A part of what an input tells: its value, or a further field.
+pub struct Part {
+    /// Its label; the value has none.
+    pub label: Option<&'static str>,
+    /// Its shape.
+    pub shape: Shape,
+}
+
+/// The parts of the input of a name, in the order in which a sample has their numbers.
+pub fn parts(name: &str) -> Option<Vec<Part>> {
+    let (value, fields) = INPUTS.input_shapes(name)?;
+    let fields = fields.into_iter().map(|(label, shape)| Part { label: Some(label), shape });
+    Some(std::iter::once(Part { label: None, shape: value }).chain(fields).collect())
 }
 
 /// Reads what is played.
 pub fn played(understood: &mut Understood, clause: PlayedClause, files: &Files) -> Result<(), Wrong> {
     let PlayedClause { name, file: path } = clause;
-    let (number, shape) = measured(&name).ok_or_else(|| unplayable(&name))?;
+    let (measurement, parts) = measured(&name).ok_or_else(|| unplayable(&name))?;
     let bytes = files.data(&path, RECORDED_BYTES_MAX as u64)?;
-    let quantity = measurements::info(number).quantity;
-    let can_be = |x: f64| quantity.can_be([cells::in_si(x, &shape), 0.0, 0.0, 0.0]);
-    let columns = Columns { time: cells::TIME, number: &cells::title(&name, &shape) };
-    let rows = series::read(&bytes, columns, can_be).map_err(|wrong| Wrong::in_file(&path, wrong.faults))?;
-    let sample = |(time, x): (f64, f64)| {
-        let x = cells::in_si(x, &shape);
-        let number = if quantity == Quantity::Direction { Heading::from_radians(x).radians() } else { x };
-        PlayedSample { tick: (time / TICK_S).round() as u64, number }
+    let quantity = measurements::info(measurement).quantity;
+    let (numbers, shapes): (Vec<Column>, Vec<&Shape>) = parts.iter().flat_map(|part| columns(&name, part)).unzip();
+    let in_si = |mut numbers: Numbers| {
+        numbers.iter_mut().zip(&shapes).for_each(|(number, shape)| *number = cells::in_si(*number, shape));
+        numbers
     };
-    let played = Played::new(number, rows.into_iter().map(sample).collect()).ok_or_else(|| unplayable(&name))?;
+    let can_be = |numbers: Numbers| numbers.iter().all(|x| x.is_finite()) && quantity.can_be(in_si(numbers));
+    let columns = Columns { time: cells::TIME, name: &name, numbers: &numbers };
+    let rows = series::read(&bytes, columns, can_be).map_err(|wrong| Wrong::in_file(&path, wrong.faults))?;
+    let sample = |(time, numbers): (f64, Numbers)| {
+        let mut reading = in_si(numbers);
+        if quantity == Quantity::Direction {
+            reading[0] = Heading::from_radians(reading[0]).radians();
+        }
+        PlayedSample { tick: (time / TICK_S).round() as u64, reading }
+    };
+    let played = Played::new(measurement, rows.into_iter().map(sample).collect()).ok_or_else(|| unplayable(&name))?;
     understood.world.instruments.played.push(played);
     understood.note_file(path, &bytes);
     Ok(())
 }
 
-/// The measurement of a name and its shape, if it can be played.
-fn measured(name: &str) -> Option<(u16, Shape)> {
+/// The measurement of a name and its parts, if it can be played.
+fn measured(name: &str) -> Option<(u16, Vec<Part>)> {
     let (number, _) =
         (0..).zip(&measurements::ALL).find(|(number, row)| row.name == name && Played::can_be(*number))?;
-    Some((number, shape(name)?))
+    Some((number, parts(name)?))
+}
+
+/// The columns of a part of an input, each with what its numbers are. A table may lack those of a field, such as a sigma: it is 0 then, as what is
+/// exact has it.
+fn columns<'a>(name: &str, part: &'a Part) -> Vec<(Column, &'a Shape)> {
+    let full = part.label.map_or_else(|| name.to_string(), |label| cells::field(name, label));
+    let column = |head| Column {
+        head,
+        otherwise: part.label.map(|_| 0.0),
+        is_standing: part.label.is_none() && cells::is_beside(name),
+    };
+    cells::titles(&full, &part.shape).into_iter().map(|head| (column(head), &part.shape)).collect()
 }
 
 /// Why a name cannot be played, and what can.
@@ -67,12 +96,12 @@ fn unplayable(name: &str) -> Wrong {
     if is(WATER_DEPTH) {
         return Wrong::with("`water_depth` is the sum of `depth` and `altitude`", "play these");
     }
-    if is(BEACON) {
-        let help = "the clause `beacon` lets it go along `points` at `times`";
-        return Wrong::with("`beacon` is no single number, and cannot be played", help);
+    if is(UTC) {
+        let help = "the clause `date` says on which date the run begins";
+        return Wrong::with("`utc` is told by a clock, and cannot be played", help);
     }
-    if shape(name).is_some() {
-        return Wrong::with(format!("`{name}` is no single number of a sensor, and cannot be played"), can);
+    if parts(name).is_some() {
+        return Wrong::with(format!("`{name}` is no number of a sensor, and cannot be played"), can);
     }
     let help = nearest(name, known.iter().copied()).map_or(can, |near| format!("did you mean `{near}`?"));
     Wrong::with(format!("there is no input `{name}`"), help)

@@ -7,13 +7,46 @@ use albacore_session::{Faults, PastRun, Plan, RECORDED, Run, Source, load_text, 
 use std::path::{Path, PathBuf};
 
 /// All that can be recorded and played, but for what the vehicle tells of itself.
-const PLAYED: [&str; 9] =
-    ["chemical", "temperature", "salinity", "battery", "depth", "altitude", "speed", "heading", "course"];
+const PLAYED: [&str; 12] = [
+    "chemical",
+    "temperature",
+    "salinity",
+    "battery",
+    "depth",
+    "altitude",
+    "speed",
+    "heading",
+    "course",
+    "position",
+    "flow",
+    "beacon",
+];
+/// The columns of a table that records them.
+const COLUMNS: [&str; 18] = [
+    "time",
+    "chemical",
+    "temperature",
+    "salinity",
+    "battery",
+    "depth",
+    "altitude",
+    "speed",
+    "heading",
+    "course",
+    "north",
+    "east",
+    "position.sigma",
+    "flow.north",
+    "flow.east",
+    "beacon.north",
+    "beacon.east",
+    "beacon.sigma",
+];
 const MISSION: &str = "mission north in w within 10 min {
-    area op = rectangle(center: point(0 m, 0 m), along: 0 deg, length: 400 m, width: 400 m)
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
     requires { position, heading, course fresh 5 s, else abort }
     recovery within 1 min { wait for 1 s }
-    record chemical, temperature, salinity, battery, depth, altitude, speed, heading, course at 1 Hz
+    record chemical, temperature, salinity, battery, depth, altitude, speed, heading, course, position, flow, beacon at 1 Hz
     with speed 1.5 m/s
     steer 10 deg at depth 6 m for 1 min
 }
@@ -34,6 +67,10 @@ const SEA: &str = "still_water with {
     sounder(noise: 5 cm, dropouts: 20 %)
     dvl(noise: 2 cm/s)
     battery(noise: 1 %)
+    navigation(dead_reckoning(0.5 m/s^0.5))
+    beacon(at: point(40 m, 20 m), points: [point(60 m, 90 m)], times: [1 min])
+    usbl(noise: 50 cm, dropouts: 20 %)
+    fault(position, off, from: 30 s, to: 33 s)
 }";
 
 fn folder(name: &str) -> PathBuf {
@@ -80,7 +117,7 @@ fn what_was_recorded_is_recorded_again_when_it_is_played() {
     let plan = plan(&folder, &playing(""));
     assert_eq!(plan.sources.last().unwrap().name, "dive.csv", "no campaign goes on with another file");
     let again = recorded(&plan);
-    for name in std::iter::once("time").chain(PLAYED) {
+    for name in COLUMNS {
         let (before, again) = (column(&before, name), column(&again, name));
         let differs = before.iter().zip(&again).find(|(before, again)| before != again);
         assert_eq!((differs, before.len()), (None, again.len()), "{name}");
@@ -113,10 +150,15 @@ fn the_truth_is_as_ever() {
     let folder = folder("truth");
     let rows: String = (0..=60).map(|second| format!("{second},1\n")).collect();
     std::fs::write(folder.join("dive.csv"), format!("time (s),depth (m)\n{rows}")).unwrap();
-    let world = "still_water with { played(\"depth\", file: \"dive.csv\"); ctd() }";
+    let world = "still_water with { played(\"depth\", file: \"dive.csv\"); ctd(); usbl() }";
     let table = recorded(&plan(&folder, world));
     assert!(column(&table, "depth").iter().skip(1).all(|cell| *cell == "1"), "{table}");
-    let test = "test \"deep\" {\n run north in w seeds 1..1\n expect truth.depth > 5.9 m\n}\n";
+    held(&folder, world, "truth.depth > 5.9 m");
+}
+
+/// Asks what is so at the end.
+fn held(folder: &Path, world: &str, expected: &str) {
+    let test = format!("test \"so\" {{\n run north in w seeds 1..1\n expect {expected}\n}}\n");
     let name = folder.join("script.alb").display().to_string();
     let script = load_text(Source { name: name.into(), text: format!("{MISSION}scenario w = {world}\n{test}").into() });
     let test = script.tests().pop().unwrap().unwrap();
@@ -125,12 +167,44 @@ fn the_truth_is_as_ever() {
     assert!(result.failures.is_empty(), "{:#?}", result.failures);
 }
 
+/// What stands in a row since an earlier one is no sample of it: where a position was silent, it is silent again.
+#[test]
+fn a_position_that_was_silent_is_played_silent() {
+    let folder = folder("silent");
+    let silent = |table: &str| {
+        let cells = column(table, "north").into_iter().zip(column(table, "position.sigma"));
+        let silent = column(table, "time").into_iter().zip(cells).filter(|(_, (_, sigma))| sigma.is_empty());
+        silent.map(|(time, (north, _))| (time.to_string(), !north.is_empty())).collect::<Vec<_>>()
+    };
+    let table = recorded(&plan(&folder, SEA));
+    let a_place_stands_there = true;
+    assert_eq!(silent(&table), ["31.0", "32.0"].map(|time| (time.to_string(), a_place_stands_there)));
+    std::fs::write(folder.join("dive.csv"), &table).unwrap();
+    assert_eq!(silent(&recorded(&plan(&folder, &playing("")))), silent(&table));
+}
+
+/// Who tells no sigma is taken to be exact.
+#[test]
+fn a_position_without_a_sigma_is_exact_and_the_vehicle_is_elsewhere() {
+    let folder = folder("exact");
+    let rows: String = (0..=60).map(|second| format!("{second},{second},-7.5\n")).collect();
+    std::fs::write(folder.join("dive.csv"), format!("time (s),north (m),east (m)\n{rows}")).unwrap();
+    let world = "still_water with { played(\"position\", file: \"dive.csv\"); ctd(); usbl() }";
+    let table = recorded(&plan(&folder, world));
+    let told = |name: &str| column(&table, name).into_iter().skip(1).collect::<std::collections::BTreeSet<_>>();
+    assert_eq!((told("east"), told("position.sigma")), (["-7.50"].into(), ["0"].into()));
+    held(&folder, world, "distance(truth.position, north.op.center + 90 m toward 10 deg) < 15 m");
+}
+
 #[test]
 fn a_campaign_knows_a_file_by_what_it_holds() {
     let folder = folder("digest");
     let digest = |number: &str| {
         std::fs::write(folder.join("dive.csv"), format!("time (s),temperature (degC)\n1,{number}\n")).unwrap();
-        plan(&folder, "still_water with { played(\"temperature\", file: \"dive.csv\"); ctd() }").sources.pop().unwrap()
+        plan(&folder, "still_water with { played(\"temperature\", file: \"dive.csv\"); ctd(); usbl() }")
+            .sources
+            .pop()
+            .unwrap()
     };
     assert_ne!(digest("12"), digest("13"));
     assert_eq!(digest("12"), digest("12"));

@@ -6,6 +6,10 @@ use albacore_vehicle::{Reading, measurements};
 
 /// The head of the column of times.
 pub const TIME: &str = "time (s)";
+/// The heads of the columns of a place that stands beside every row.
+const PLACE: [&str; 2] = ["north (m)", "east (m)"];
+/// The numbers of a place and of a vector.
+const AXES: [&str; 2] = ["north", "east"];
 /// Digits of a degree of latitude and longitude behind the point: a centimetre.
 const GLOBE_DECIMALS: u8 = 7;
 /// Digits of a metre of a position.
@@ -15,7 +19,7 @@ const PLACE_DECIMALS: u8 = 2;
 pub fn standing(has_utc: bool, on_globe: bool) -> String {
     let utc = if has_utc { ",utc" } else { "" };
     let globe = if on_globe { ",latitude (deg),longitude (deg)" } else { "" };
-    format!("{TIME}{utc},north (m),east (m){globe},depth (m)")
+    format!("{TIME}{utc},{}{globe},depth (m)", PLACE.join(","))
 }
 
 /// Adds the head of an input's columns; `labels` are those of its further fields. What stands beside every row is not told twice: of a
@@ -25,7 +29,7 @@ pub fn head(line: &mut String, input: &Input, labels: &[String], on_globe: bool)
         names(line, &input.name, &input.shape, on_globe);
     }
     for (label, shape) in labels.iter().zip(&input.fields) {
-        names(line, &format!("{}.{label}", input.name), shape, on_globe);
+        names(line, &field(&input.name, label), shape, on_globe);
     }
 }
 
@@ -63,42 +67,45 @@ pub fn seconds(tick: u64) -> String {
     number::seconds(tick).trim_end_matches(" s").trim_start().to_string()
 }
 
-/// Whether an input stands beside every row.
-fn is_beside(name: &str) -> bool {
+/// Whether an input stands beside every row, with its latest sample.
+pub fn is_beside(name: &str) -> bool {
     [senses::POSITION, senses::DEPTH, measurements::name(measurements::UTC)].contains(&name)
 }
 
-/// The head of a column of one number: its name, and its unit if it has one.
-pub fn title(name: &str, shape: &Shape) -> String {
+/// What a further field of an input is called.
+pub fn field(name: &str, label: &str) -> String {
+    format!("{name}.{label}")
+}
+
+/// The heads of the columns of a value's numbers, each with its unit if it has one. A place and a vector have two.
+pub fn titles(name: &str, shape: &Shape) -> Vec<String> {
     let unit = match shape {
         Shape::Quantity(display) | Shape::Vector(display) => display.unit.as_str(),
         Shape::Heading => "deg",
-        Shape::Depth | Shape::Altitude => "m",
+        Shape::Depth | Shape::Altitude | Shape::Point => "m",
         _ => "",
     };
-    if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") }
+    let title = |name: &str| if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") };
+    match shape {
+        Shape::Point if is_beside(name) => PLACE.map(str::to_string).to_vec(),
+        Shape::Point | Shape::Vector(_) => AXES.map(|axis| title(&format!("{name}.{axis}"))).to_vec(),
+        _ => vec![title(name)],
+    }
 }
 
 /// What a number of such a column is in SI units.
 pub fn in_si(number: f64, shape: &Shape) -> f64 {
     match shape {
-        Shape::Quantity(display) => number * display.scale,
+        Shape::Quantity(display) | Shape::Vector(display) => number * display.scale,
         Shape::Heading => math::radians(number),
         _ => number,
     }
 }
 
 fn names(line: &mut String, name: &str, shape: &Shape, on_globe: bool) {
-    match shape {
-        Shape::Vector(_) => {
-            ["north", "east"].iter().for_each(|axis| put(line, &title(&format!("{name}.{axis}"), shape)));
-        }
-        Shape::Point => {
-            ["north", "east"].iter().for_each(|axis| put(line, &format!("{name}.{axis} (m)")));
-            let globe: &[&str] = if on_globe { &["latitude", "longitude"] } else { &[] };
-            globe.iter().for_each(|axis| put(line, &format!("{name}.{axis} (deg)")));
-        }
-        _ => put(line, &title(name, shape)),
+    titles(name, shape).iter().for_each(|title| put(line, title));
+    if on_globe && *shape == Shape::Point {
+        ["latitude", "longitude"].iter().for_each(|axis| put(line, &format!("{name}.{axis} (deg)")));
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::{InstrumentSetup, water_depth};
 use crate::scenario::ScenarioIssues;
-use albacore_vehicle::Sample;
 use albacore_vehicle::measurements::{WATER_DEPTH, info};
+use albacore_vehicle::{Reading, Sample};
 use std::sync::Arc;
 
 /// A measurement that is played: it tells these samples, and no others.
@@ -19,18 +19,18 @@ pub struct PlayedSample {
     /// The tick at which it comes.
     pub tick: u64,
     /// What it tells, in SI units.
-    pub number: f64,
+    pub reading: Reading,
 }
 
 impl Played {
-    /// A measurement of one number with its samples, in the order of their times; none where it is of another kind, or is made of others.
+    /// A measurement with its samples, in the order of their times; none where it is in no unit, or is made of others.
     pub fn new(measurement: u16, samples: Vec<PlayedSample>) -> Option<Self> {
         Played::can_be(measurement).then(|| Played { measurement, samples: samples.into() })
     }
 
     /// Whether a measurement can be played: `water_depth` is the sum of what is told of depth and altitude, played or not.
     pub fn can_be(measurement: u16) -> bool {
-        measurement != WATER_DEPTH && info(measurement).quantity.is_scalar()
+        measurement != WATER_DEPTH && info(measurement).quantity.is_measured()
     }
 
     /// What is played.
@@ -84,7 +84,7 @@ impl Player {
         let is_played = |measurement| self.0.iter().any(|playing| playing.played.measurement == measurement);
         if info(WATER_DEPTH).sources.iter().any(|source| is_played(*source)) {
             samples.retain(|sample| sample.measurement != WATER_DEPTH);
-            samples.extend(water_depth(samples).map(|depth| sample(WATER_DEPTH, depth)));
+            samples.extend(water_depth(samples).map(|depth| sample(WATER_DEPTH, [depth, 0.0, 0.0, 0.0])));
         }
         // A depth comes before an altitude, whoever tells it: in the order of the table of measurements.
         samples.sort_by_key(|sample| sample.measurement);
@@ -97,14 +97,13 @@ impl Playing {
         samples.retain(|sample| sample.measurement != measurement);
         let left = self.played.samples.get(self.told..).unwrap_or_default();
         let due = left.iter().take_while(|sample| sample.tick <= tick);
-        samples.extend(due.clone().map(|played| sample(measurement, played.number)));
+        samples.extend(due.clone().map(|played| sample(measurement, played.reading)));
         self.told += due.count();
     }
 }
 
-/// A sample of one number.
-fn sample(measurement: u16, number: f64) -> Sample {
-    Sample { measurement, reading: [number, 0.0, 0.0, 0.0] }
+fn sample(measurement: u16, reading: Reading) -> Sample {
+    Sample { measurement, reading }
 }
 
 #[cfg(test)]
@@ -115,7 +114,7 @@ mod tests {
     };
 
     fn played(measurement: u16, samples: &[(u64, f64)]) -> Played {
-        let samples = samples.iter().map(|&(tick, number)| PlayedSample { tick, number }).collect();
+        let samples = samples.iter().map(|&(tick, x)| PlayedSample { tick, reading: [x, 0.0, 0.0, 0.0] }).collect();
         Played::new(measurement, samples).unwrap()
     }
 
@@ -123,7 +122,8 @@ mod tests {
     fn told(all: &[Played], measured: &[(u16, f64)], ticks: u64) -> Vec<Vec<(u16, f64)>> {
         let mut player = Player::new(all);
         let tick = |tick| {
-            let mut samples: Vec<Sample> = measured.iter().map(|&(measurement, x)| sample(measurement, x)).collect();
+            let mut samples: Vec<Sample> =
+                measured.iter().map(|&(measurement, x)| sample(measurement, [x, 0.0, 0.0, 0.0])).collect();
             player.play(tick, &mut samples);
             samples.iter().map(|s| (s.measurement, s.reading[0])).collect()
         };
@@ -151,9 +151,11 @@ mod tests {
     }
 
     #[test]
-    fn only_single_numbers_that_are_made_of_no_others_can_be_played() {
-        assert!([POSITION, FLOW, BEACON, UTC, VEHICLE_MODE, WATER_DEPTH].iter().all(|&other| !Played::can_be(other)));
-        assert!([COURSE, DEPTH, ALTITUDE, CHEMICAL].iter().all(|&scalar| Played::can_be(scalar)));
+    fn only_numbers_that_are_made_of_no_others_can_be_played() {
+        assert!([UTC, VEHICLE_MODE, WATER_DEPTH].iter().all(|&other| !Played::can_be(other)));
+        assert!(
+            [POSITION, FLOW, BEACON, COURSE, DEPTH, ALTITUDE, CHEMICAL].iter().all(|&number| Played::can_be(number))
+        );
     }
 
     #[test]
