@@ -368,10 +368,11 @@ fn first_lines(a: &str, b: &str) -> (Option<String>, Option<String>) {
     }
 }
 
-/// `missions/snapshots/duck_single-one_source-1.trace`; of the second of several rows `…-one_source-2-1.trace`.
+/// `missions/snapshots/duck_single-one_source-1.trace`; of the second row `…-one_source.2-1.trace`. No test's name has a `-` or a `.` there,
+/// so that no two scripts share a name, whatever they are called.
 pub fn snapshot_file(script: &Path, test: &TestResult, run: &TestRun) -> PathBuf {
     let stem = disk::stem(script);
-    let row = run.row.map_or(String::new(), |row| format!("-{row}"));
+    let row = run.row.map_or(String::new(), |row| format!(".{row}"));
     let name = short(format!("{stem}-{}{row}-{}", test.file_name, run.seed));
     script.with_file_name("snapshots").join(format!("{name}.trace"))
 }

@@ -20,6 +20,8 @@ const FARTHEST_M: f64 = 1e6;
 pub(super) const AGE_MAX: f64 = 31_536_000.0;
 /// Its name is no longer than this, characters.
 const NAME_MAX: usize = 60;
+/// What the duration that a header says may lose in decimals, as a share.
+const DURATION_ROUNDING: f64 = 1e-6;
 /// The mend of a header that cannot be.
 const MEND: &str = "correct it where the record is made, or fetch header and binary again";
 
@@ -77,6 +79,7 @@ pub struct Kernel {
 pub(super) struct Record {
     pub frame_interval_s: f64,
     pub n_frames: usize,
+    duration_s: Option<f64>,
     pub quantum_m: f64,
     pub filaments: usize,
     pub filament_frames: usize,
@@ -297,6 +300,16 @@ impl Raw {
         faults.unless(
             (2..=FRAMES_MAX).contains(&r.n_frames),
             format!("`record.n_frames` is {}: it must be 2 to {FRAMES_MAX}", r.n_frames),
+        );
+        // It is said twice: by the number of frames, and in seconds.
+        let duration = r.n_frames.saturating_sub(1) as f64 * r.frame_interval_s;
+        let said = r.duration_s.unwrap_or(duration);
+        faults.unless(
+            (said - duration).abs() <= DURATION_ROUNDING * duration,
+            format!(
+                "`record.duration_s` is {said:?}: {} frames every {:?} s last {duration:?} s",
+                r.n_frames, r.frame_interval_s
+            ),
         );
         faults.unless(r.filaments > 0, String::from("`record.filaments` is 0: there is no plume"));
         faults.unless(

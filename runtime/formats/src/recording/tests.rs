@@ -113,6 +113,10 @@ fn spoilt_records_are_refused_with_the_reason() {
             "`record.frame_interval_s` is 0.0: it must be above 0",
         ),
         (said(|h, _| h["record"]["n_frames"] = json!(1)), "it must be 2 to"),
+        (
+            said(|h, _| h["record"]["duration_s"] = json!(15)),
+            "`record.duration_s` is 15.0: 3 frames every 5.0 s last 10.0 s",
+        ),
         (said(|h, _| h["record"]["filament_frames"] = json!(1)), "each of 2 filaments has a frame at least"),
         (
             said(|h, _| h["record"]["filaments"] = json!(3)),

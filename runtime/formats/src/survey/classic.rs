@@ -10,6 +10,7 @@ use crate::fault::{Fault, counted, shortened};
 use crate::survey::CELLS_MAX;
 use crate::survey::CUT_IT;
 use bytes::Bytes;
+use std::collections::BTreeSet;
 
 /// The marks that begin a list.
 const DIMENSIONS: u32 = 0x0A;
@@ -159,8 +160,10 @@ impl<'a> Classic<'a> {
             let length = bytes.count("the length of a dimension")?;
             Ok(Dimension { name, length: (length > 0).then_some(length) })
         })?;
+        each_once(&bytes, "dimensions", dimensions.iter().map(|dimension| dimension.name))?;
         attributes(&mut bytes)?;
         let variables = bytes.list(VARIABLES, "variables", |bytes| Variable::read(bytes, dimensions.len(), wide))?;
+        each_once(&bytes, "variables", variables.iter().map(|variable| variable.name))?;
         Ok(Classic { bytes: file, dimensions, variables })
     }
 
@@ -287,12 +290,25 @@ impl<'a> Variable<'a> {
 }
 
 fn attributes<'a>(bytes: &mut Bytes<'a>) -> Result<Vec<Attribute<'a>>, Fault> {
-    bytes.list(ATTRIBUTES, "attributes", |bytes| {
+    let attributes = bytes.list(ATTRIBUTES, "attributes", |bytes| {
         let name = bytes.name("an attribute")?;
         let kind = kind(bytes)?;
         let count = bytes.count("the number of an attribute's values")?;
         Ok(Attribute { name, kind, bytes: bytes.padded(count * kind.size(), "an attribute")? })
-    })
+    })?;
+    each_once(bytes, "attributes", attributes.iter().map(|attribute| attribute.name))?;
+    Ok(attributes)
+}
+
+/// No two of one name: nobody can tell which is meant.
+fn each_once<'n>(bytes: &Bytes, what: &str, names: impl Iterator<Item = &'n str>) -> Result<(), Fault> {
+    let mut known = BTreeSet::new();
+    for name in names {
+        if !known.insert(name) {
+            return Err(bytes.wrong(format!("two {what} are called `{}`", shortened(name))));
+        }
+    }
+    Ok(())
 }
 
 fn kind(bytes: &mut Bytes) -> Result<Kind, Fault> {

@@ -226,6 +226,21 @@ fn messages_do_not_grow_with_the_file() {
     );
 }
 
+/// An attack: of two of one name the first was taken, and the second lost without a word.
+#[test]
+fn two_of_one_name_are_refused() {
+    let twice = |name: &str| format!("two {name}");
+    let mut axes = File::small();
+    axes.variables.push(axes.variables[1].clone());
+    let mut lengths = File::small();
+    lengths.dimensions.push(("x", 5));
+    let units = File::small().with("elevation", |v| v.attributes.extend([("units", Text("m")), ("units", Text("ft"))]));
+    for (file, what) in [(axes, "variables"), (lengths, "dimensions"), (units, "attributes")] {
+        let told = faults(&file);
+        assert!(told.iter().any(|fault| fault.message.contains(&twice(what))), "{told:?}");
+    }
+}
+
 #[test]
 fn degrees_in_all_their_spellings() {
     let globe = |lat: &'static str, lon: &'static str| {
