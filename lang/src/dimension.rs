@@ -4,42 +4,86 @@
 use albacore_program::Display;
 use std::fmt;
 
-/// Powers of length, time, angle, mass, temperature and salinity, in halves: `m/s^0.5` has one.
+/// Powers of length, time, angle, mass, temperature, salinity and what a function calls `Quantity`, in halves: `m/s^0.5` has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dimension {
-    halves: [i8; 6],
+    halves: [i8; BASES.len()],
 }
 
 /// No power of a dimension is above this, in halves, nor below its negative.
 const HALVES_MAX: i8 = 100;
 
-const SYMBOLS: [&str; 6] = ["m", "s", "rad", "kg", "degC", "psu"];
+/// The symbol of each base, and its type.
+const BASES: [(&str, &str); 7] = [
+    ("m", "Length"),
+    ("s", "Duration"),
+    ("rad", "Angle"),
+    ("kg", "Mass"),
+    ("degC", "Temperature"),
+    ("psu", "Salinity"),
+    ("Quantity", "Quantity"),
+];
+/// The place of `Quantity` among them.
+const QUANTITY: usize = BASES.len() - 1;
 
 impl Dimension {
     /// No dimension: a plain number.
-    pub const NONE: Dimension = Dimension { halves: [0; 6] };
+    pub const NONE: Dimension = Dimension { halves: [0; BASES.len()] };
     /// Metres.
-    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0, 0, 0] };
+    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0, 0, 0, 0] };
     /// Seconds.
-    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0, 0, 0] };
+    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0, 0, 0, 0] };
     /// Radians.
-    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0, 0, 0] };
+    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0, 0, 0, 0] };
     /// Kilograms.
-    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2, 0, 0] };
+    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2, 0, 0, 0] };
     /// Degrees Celsius.
-    pub const TEMPERATURE: Dimension = Dimension { halves: [0, 0, 0, 0, 2, 0] };
+    pub const TEMPERATURE: Dimension = Dimension { halves: [0, 0, 0, 0, 2, 0, 0] };
     /// Practical salinity (PSS-78).
-    pub const SALINITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 2] };
+    pub const SALINITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 2, 0] };
     /// Metres per second.
-    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0, 0, 0] };
+    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0, 0, 0, 0] };
     /// Radians per second.
-    pub const TURN_RATE: Dimension = Dimension { halves: [0, -2, 2, 0, 0, 0] };
+    pub const TURN_RATE: Dimension = Dimension { halves: [0, -2, 2, 0, 0, 0, 0] };
     /// Hertz.
-    pub const FREQUENCY: Dimension = Dimension { halves: [0, -2, 0, 0, 0, 0] };
+    pub const FREQUENCY: Dimension = Dimension { halves: [0, -2, 0, 0, 0, 0, 0] };
+
+    /// Any one quantity: `Quantity` in a function, whichever it is given. No unit has this dimension, so that what can be calculated with
+    /// it can be with every other.
+    pub const QUANTITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 0, 2] };
+
+    /// Whether `Quantity` is in it.
+    pub fn is_of_quantity(self) -> bool {
+        self.halves[QUANTITY] != 0
+    }
+
+    /// The rest of it, and the halves of `Quantity` in it.
+    fn without_quantity(self) -> (Dimension, i8) {
+        let mut rest = self;
+        let halves = std::mem::take(&mut rest.halves[QUANTITY]);
+        (rest, halves)
+    }
+
+    /// This dimension where `Quantity` is another, unless a power in it is too high.
+    pub fn with_quantity(self, quantity: Dimension) -> Option<Dimension> {
+        let (rest, halves) = self.without_quantity();
+        rest.times(quantity.power(f64::from(halves) / 2.0)?)
+    }
+
+    /// What `Quantity` is where this dimension is another.
+    pub fn quantity_in(self, given: Dimension) -> Option<Dimension> {
+        let (rest, halves) = self.without_quantity();
+        let mut quantity = given.over(rest)?;
+        for power in &mut quantity.halves {
+            let twice = i16::from(*power) * 2;
+            *power = (twice.checked_rem(halves.into())? == 0).then(|| twice / i16::from(halves))?.try_into().ok()?;
+        }
+        Some(quantity)
+    }
 
     /// This dimension to a power, when its halves stay whole and are not too many.
     pub fn power(self, power: f64) -> Option<Dimension> {
-        let mut halves = [0; 6];
+        let mut halves = [0; BASES.len()];
         for (to, from) in halves.iter_mut().zip(self.halves) {
             let raised = f64::from(from) * power;
             if raised.fract() != 0.0 || raised.abs() > f64::from(HALVES_MAX) {
@@ -102,13 +146,7 @@ impl Dimension {
         if !shown.contains(' ') && !shown.starts_with("1/") {
             return shown;
         }
-        let power = |halves: i8| match halves {
-            2 => String::new(),
-            h if h % 2 == 0 => format!("^{}", h / 2),
-            h => format!("^{}", f64::from(h) / 2.0),
-        };
-        let mut parts: Vec<(&str, i8)> =
-            SYMBOLS.into_iter().zip(self.halves).filter(|(_, halves)| *halves != 0).collect();
+        let mut parts: Vec<(&str, i8)> = self.bases().map(|((symbol, _), halves)| (symbol, halves)).collect();
         parts.sort_by_key(|(_, halves)| *halves < 0);
         let word = |(i, (symbol, halves)): (usize, &(&str, i8))| {
             format!("{symbol}{}", power(if i == 0 { *halves } else { -halves }))
@@ -116,14 +154,30 @@ impl Dimension {
         parts.iter().enumerate().map(word).collect::<Vec<_>>().join("/")
     }
 
+    /// The bases that it has, each with its power in halves.
+    fn bases(self) -> impl Iterator<Item = ((&'static str, &'static str), i8)> {
+        BASES.into_iter().zip(self.halves).filter(|(_, halves)| *halves != 0)
+    }
+
+    /// As a script writes the type of what has no other name: `Quantity^2/Duration`.
+    fn product_of_types(self) -> String {
+        let factor = |((_, name), halves): ((&str, &str), i8)| format!("{name}{}", power(halves.abs()));
+        let mut above: Vec<String> = self.bases().filter(|(_, halves)| *halves > 0).map(factor).collect();
+        // What a function is given comes first.
+        above.reverse();
+        let below = self.bases().filter(|(_, halves)| *halves < 0).map(factor);
+        let above = if above.is_empty() { "Ratio".to_string() } else { above.join("*") };
+        below.fold(above, |product, factor| format!("{product}/{factor}"))
+    }
+
     fn symbol(self) -> String {
         let part = |positive: bool| {
             let mut parts = Vec::new();
-            for (symbol, halves) in SYMBOLS.iter().zip(self.halves) {
+            for ((symbol, _), halves) in self.bases() {
                 let halves = if positive { halves } else { -halves };
                 match halves {
                     h if h <= 0 => {}
-                    2 => parts.push((*symbol).to_string()),
+                    2 => parts.push(symbol.to_string()),
                     h if h % 2 == 0 => parts.push(format!("{symbol}{}", h / 2)),
                     h => parts.push(format!("{symbol}^{}", f64::from(h) / 2.0)),
                 }
@@ -139,18 +193,28 @@ impl Dimension {
     }
 }
 
+/// A power in halves, as it is written behind what is raised to it.
+fn power(halves: i8) -> String {
+    match halves {
+        2 => String::new(),
+        h if h % 2 == 0 => format!("^{}", h / 2),
+        h => format!("^{}", f64::from(h) / 2.0),
+    }
+}
+
 /// The type's name where it has one, else its units.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.type_name() {
             Some(name) => f.write_str(name),
+            None if self.is_of_quantity() => f.write_str(&self.product_of_types()),
             None => write!(f, "a quantity in {}", self.symbol()),
         }
     }
 }
 
 /// Types that are a dimension and nothing more. The first name of a dimension is the one that messages use.
-pub const NAMED: [(&str, Dimension); 15] = [
+pub const NAMED: [(&str, Dimension); 16] = [
     ("Ratio", Dimension::NONE),
     ("Number", Dimension::NONE),
     ("Length", Dimension::LENGTH),
@@ -160,12 +224,13 @@ pub const NAMED: [(&str, Dimension); 15] = [
     ("Temperature", Dimension::TEMPERATURE),
     ("Salinity", Dimension::SALINITY),
     ("Speed", Dimension::SPEED),
-    ("Acceleration", Dimension { halves: [2, -4, 0, 0, 0, 0] }),
+    ("Acceleration", Dimension { halves: [2, -4, 0, 0, 0, 0, 0] }),
     ("TurnRate", Dimension::TURN_RATE),
     ("Frequency", Dimension::FREQUENCY),
-    ("Surface", Dimension { halves: [4, 0, 0, 0, 0, 0] }),
-    ("Diffusivity", Dimension { halves: [4, -2, 0, 0, 0, 0] }),
-    ("RandomWalk", Dimension { halves: [2, -1, 0, 0, 0, 0] }),
+    ("Surface", Dimension { halves: [4, 0, 0, 0, 0, 0, 0] }),
+    ("Diffusivity", Dimension { halves: [4, -2, 0, 0, 0, 0, 0] }),
+    ("RandomWalk", Dimension { halves: [2, -1, 0, 0, 0, 0, 0] }),
+    ("Quantity", Dimension::QUANTITY),
 ];
 
 /// A unit: how many SI units one of it is.

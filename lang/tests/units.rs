@@ -28,6 +28,23 @@ fn a_dimension_says_its_name_or_its_units() {
     assert_eq!(Dimension::LENGTH.times(Dimension::ANGLE).unwrap().to_string(), "a quantity in m rad");
 }
 
+/// What a function is given for a parameter says what `Quantity` is, and that the type of all else.
+#[test]
+fn a_quantity_is_found_in_what_is_given_for_it() {
+    let quantity = Dimension::QUANTITY;
+    let rate = quantity.over(Dimension::TIME).unwrap();
+    assert_eq!(rate.quantity_in(Dimension::SPEED), Some(Dimension::LENGTH));
+    assert_eq!(rate.with_quantity(Dimension::LENGTH), Some(Dimension::SPEED));
+    let square = quantity.power(2.0).unwrap();
+    assert_eq!(square.quantity_in(Dimension::of_type("Surface").unwrap()), Some(Dimension::LENGTH));
+    assert_eq!(square.quantity_in(rate), rate.power(0.5));
+    let cube = quantity.power(3.0).unwrap();
+    assert_eq!(cube.quantity_in(Dimension::SPEED), None);
+    assert_eq!(cube.with_quantity(Dimension::LENGTH.power(20.0).unwrap()), None);
+    assert_eq!(square.over(Dimension::SPEED).unwrap().to_string(), "Quantity^2*Duration/Length");
+    assert_eq!(quantity.power(-0.5).unwrap().to_string(), "Ratio/Quantity^0.5");
+}
+
 /// What messages advise can be written.
 #[test]
 fn every_dimension_has_a_unit_that_is_read_as_it() {

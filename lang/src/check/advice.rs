@@ -3,6 +3,7 @@
 use super::Checker;
 use super::expr::article;
 use super::operators::ANGLE;
+use super::quantity::ANY_UNIT;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart};
 use crate::syntax::tree::Binary;
@@ -21,6 +22,8 @@ pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
 pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_constant: bool) -> String {
     let unit = wants.unit();
     match (scaling(has, wants), is_constant) {
+        (None, _) if has.is_of_quantity() || wants.is_of_quantity() => ANY_UNIT.into(),
+        (Some(Scaling { verb, by }), _) if wants.is_of_quantity() => format!("{verb} {what} by {by}"),
         (Some(scaling), true) => format!("write {what} in `{unit}`, or {} it by {}", scaling.verb, scaling.by),
         (Some(scaling), false) => format!("{} {what} by {}", scaling.verb, scaling.by),
         (None, _) => format!("write {what} in `{unit}`"),
@@ -57,6 +60,8 @@ fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> String {
         scaling_help(d, e, "the left-hand side", true)
     } else if right || scaling(e, d).is_some() {
         scaling_help(e, d, "the right-hand side", right)
+    } else if d.is_of_quantity() || e.is_of_quantity() {
+        ANY_UNIT.into()
     } else {
         format!(
             "only quantities of one kind go together: {} is in `{}`, {} in `{}`",
@@ -106,6 +111,14 @@ fn in_metres(side: &str, number: &Expr) -> String {
     match number.range.constant() {
         Some(x) => format!("give the number on the {side} a unit: `{x} m`"),
         None => format!("give the number on the {side} a unit, such as `m`"),
+    }
+}
+
+/// A number on one side that has no unit, beside what has a dimension.
+fn unit_of_side(side: &str, other: Dimension) -> String {
+    match other.is_of_quantity() {
+        true => ANY_UNIT.into(),
+        false => format!("give the number on the {side} a unit, such as `{}`", other.unit()),
     }
 }
 
@@ -188,10 +201,10 @@ impl Checker<'_> {
                     return partner(op, x, y).map(str::to_string);
                 };
                 if d.is_none() {
-                    return Some(format!("give the number on the left a unit, such as `{}`", e.unit()));
+                    return Some(unit_of_side("left", e));
                 }
                 if e.is_none() {
-                    return Some(format!("give the number on the right a unit, such as `{}`", d.unit()));
+                    return Some(unit_of_side("right", d));
                 }
                 sides_help(a, d, b, e)
             }
@@ -279,6 +292,7 @@ fn quantity(d: Dimension) -> String {
         Some("Duration") => "a time is asked for, such as `30 s`",
         Some("Angle") => "an angle is asked for, such as `15 deg`",
         Some("Speed") => "a speed is asked for, such as `1.5 m/s`",
+        _ if d.is_of_quantity() => "a quantity is asked for, such as `10 m` or `0.5`",
         _ => return format!("a quantity in `{}` is asked for", d.display().unit),
     };
     example.to_string()

@@ -1,6 +1,7 @@
 //! Arguments: by position or by label, defaults for the rest; and the functions that every script knows.
 
 use super::expr::article;
+use super::quantity::{is_of_quantity, is_zero};
 use super::{Checker, Def, ParamInfo, globe};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -266,8 +267,8 @@ impl<'t> Checker<'t> {
         match def {
             Def::Fn(id) => {
                 let signature = self.fn_signature(*id);
-                if self.takes_any_capacity(*id) {
-                    return self.call_of_any_capacity(*id, args, span);
+                if self.is_template(*id) {
+                    return self.call_of_template(*id, args, span);
                 }
                 // That its defaults lead back to it has been told.
                 if signature.result.is_none() {
@@ -463,6 +464,10 @@ impl<'t> Checker<'t> {
         let mut values = vec![first];
         for arg in &args[1..] {
             let value = self.expr(&arg.value, Some(&ty));
+            if is_of_quantity(&value.ty) && values.iter().all(is_zero) {
+                ty = value.ty.clone();
+                values.iter_mut().for_each(|zero| zero.ty = ty.clone());
+            }
             if ty == Type::Int && value.ty == NUMBER {
                 ty = NUMBER;
             }

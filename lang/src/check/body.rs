@@ -1,6 +1,6 @@
 //! Blocks and the statements in them.
 
-use super::capacities::{Capacities, Declared};
+use super::capacities::{Capacities, Declared, takes_quantity};
 use super::expr::article;
 use super::{Checker, Driving, Setting, flow};
 use crate::code::Code;
@@ -23,8 +23,8 @@ impl<'t> Checker<'t> {
     /// The body of a function, by its signature.
     pub(super) fn fn_body(&mut self, id: usize, m: usize, f: &'t tree::Function, capacities: Capacities) {
         let signature = self.fn_signatures[id].clone();
-        let is_nominal = self.takes_any_capacity(id);
-        let scope = super::Scope { capacities, is_nominal, ..super::Scope::new(m, Setting::Function) };
+        let (is_nominal, takes_quantity) = (self.takes_any_capacity(id), takes_quantity(f));
+        let scope = super::Scope { capacities, is_nominal, takes_quantity, ..super::Scope::new(m, Setting::Function) };
         let result = signature.result.clone().unwrap_or(Type::Unknown);
         let (body, scope) = self.within(scope, |c| {
             c.declare_params(&f.params, &signature.params);

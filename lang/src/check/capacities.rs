@@ -1,7 +1,8 @@
-//! Functions that take lists of any capacity: `fn mean(of: [Ratio; n]) -> Ratio?`. For each capacity that one is called with there is a
-//! function of its own, which is checked like any other: in it `n` is a number.
+//! Functions that are declared once for much that they may be given: for lists of any capacity, `fn room(of: [Point; n]) -> Int`, and for any
+//! quantity. For each capacity that one is called with there is a function of its own, which is checked like any other: in it `n` is a number.
 
 use super::args::Given;
+use super::quantity::{is_of_quantity, names_quantity};
 use super::type_syntax::LIST_CAPACITY_MAX;
 use super::{Checker, ParamInfo, Signature};
 use crate::code::Code;
@@ -27,7 +28,7 @@ pub(super) enum Declared {
     Activity(usize),
 }
 
-/// A function of lists of any capacity.
+/// A function of lists of any capacity, of any quantity, or both.
 #[derive(Clone)]
 struct Template<'t> {
     module: usize,
@@ -36,7 +37,7 @@ struct Template<'t> {
     names: Vec<String>,
 }
 
-/// The functions of lists of any capacity, and those that are made of them.
+/// The functions that are declared so, and those that are made of them.
 #[derive(Default)]
 pub(super) struct Templates<'t> {
     of: BTreeMap<usize, Template<'t>>,
@@ -46,15 +47,20 @@ pub(super) struct Templates<'t> {
 }
 
 impl<'t> Checker<'t> {
-    /// The names in a function's parameters that are no constants, and stand for the capacities of lists.
-    pub(super) fn take_capacities(&mut self, id: usize, m: usize, function: &'t tree::Function) -> Capacities {
+    /// The parameters and the result of a function as it is declared.
+    pub(super) fn take_template(
+        &mut self,
+        id: usize,
+        m: usize,
+        function: &'t tree::Function,
+    ) -> (Vec<ParamInfo>, Type) {
         let names = self.capacity_names(m, &function.params);
-        if names.is_empty() {
-            return Vec::new();
-        }
         let nominal: Vec<u32> = names.iter().map(|_| NOMINAL).collect();
-        self.templates.of.insert(id, Template { module: m, function, names: names.clone() });
-        names.into_iter().zip(nominal).collect()
+        let template = Template { module: m, function, names };
+        if !nominal.is_empty() || takes_quantity(function) {
+            self.templates.of.insert(id, template.clone());
+        }
+        self.signature_for(&template, &nominal)
     }
 
     /// The names in parameters that are no constants, in the order in which they come.
@@ -72,9 +78,9 @@ impl<'t> Checker<'t> {
 
     /// A list or a map that is given for one of any capacity, and how many it may hold.
     pub(super) fn of_any_capacity(&mut self, written: &tree::Expr, ty: &Type) -> (Expr, u32) {
-        // A list that is written out may hold any number, until it is known what it is written for.
+        // A list that is written out may hold any number, until it is known what it is written for, and of any quantity.
         let widest = match ty {
-            Type::List(inner, _) => Some(Type::List(inner.clone(), LIST_CAPACITY_MAX)),
+            Type::List(inner, _) if !is_of_quantity(inner) => Some(Type::List(inner.clone(), LIST_CAPACITY_MAX)),
             _ => None,
         };
         let value = self.expr(written, widest.as_ref());
@@ -88,8 +94,12 @@ impl<'t> Checker<'t> {
         names.into_iter().map(|name| (name, NOMINAL)).collect()
     }
 
-    pub(super) fn takes_any_capacity(&self, id: usize) -> bool {
+    pub(super) fn is_template(&self, id: usize) -> bool {
         self.templates.of.contains_key(&id)
+    }
+
+    pub(super) fn takes_any_capacity(&self, id: usize) -> bool {
+        self.templates.of.get(&id).is_some_and(|template| !template.names.is_empty())
     }
 
     /// A capacity by its name.
@@ -97,8 +107,8 @@ impl<'t> Checker<'t> {
         self.scope.capacities.iter().find(|(known, _)| known == name).map(|(_, capacity)| *capacity)
     }
 
-    /// A call of a function of lists of any capacity: that of those which are given.
-    pub(super) fn call_of_any_capacity(&mut self, id: usize, args: &[tree::Arg], span: Span) -> Expr {
+    /// A call of a function that is declared so: that for what it is given.
+    pub(super) fn call_of_template(&mut self, id: usize, args: &[tree::Arg], span: Span) -> Expr {
         let Some(template) = self.templates.of.get(&id).cloned() else { return self.unknown(span) };
         let signature = self.fn_signatures[id].clone();
         let (written, failed) = self.by_parameter(&signature.name, &signature.params, args, true);
@@ -106,24 +116,42 @@ impl<'t> Checker<'t> {
         let mut given: Vec<Option<Given>> = Vec::new();
         for ((written, param), declared) in written.iter().zip(&signature.params).zip(&template.function.params) {
             let place = capacity(&declared.ty).and_then(|name| template.names.iter().position(|known| known == name));
-            let (Some(place), Some(written), Type::List(..) | Type::Map(..)) = (place, written, &param.ty) else {
-                given.push(written.map(Given::Written));
-                continue;
-            };
-            let (value, capacity) = self.of_any_capacity(written, &param.ty);
-            capacities[place] = capacities[place].max(capacity);
-            given.push(Some(Given::Known(value)));
+            given.push(match (place, written, &param.ty) {
+                // Of what an empty list is empty the others say.
+                (_, Some(written), _) if is_empty_list(written) => Some(Given::Written(written)),
+                (Some(place), Some(written), Type::List(..) | Type::Map(..)) => {
+                    let (value, capacity) = self.of_any_capacity(written, &param.ty);
+                    capacities[place] = capacities[place].max(capacity);
+                    Some(Given::Known(value))
+                }
+                (_, Some(written), ty) if is_of_quantity(ty) => Some(Given::Known(self.expr(written, None))),
+                (_, written, _) => written.map(Given::Written),
+            });
         }
-        let (made, signature) = if self.scope.is_nominal {
+        let (made, params, result) = if template.names.is_empty() {
+            (id, signature.params.clone(), signature.result.clone().unwrap_or(Type::Unknown))
+        } else if self.scope.is_nominal {
             // Who calls it is looked at by itself: nothing is made for that.
             let (params, result) = self.signature_for(&template, &capacities);
-            (id, Signature { params, result: Some(result), ..signature })
+            (id, params, result)
         } else {
             let Some(made) = self.made_of(id, &template, capacities, span) else { return self.unknown(span) };
-            (made, self.fn_signatures[made].clone())
+            let Signature { params, result, .. } = self.fn_signatures[made].clone();
+            (made, params, result.unwrap_or(Type::Unknown))
         };
-        let result = signature.result.clone().unwrap_or(Type::Unknown);
-        match self.values(&signature.name, &signature.params, given, failed, (span, Some(signature.span))) {
+        let quantity = self.quantity_given(&params, &given);
+        let Some((params, result)) = self.signature_of_quantity(params, result, quantity, span) else {
+            return self.unknown(span);
+        };
+        let told = self.findings.len();
+        match self.values(&signature.name, &params, given, failed, (span, Some(signature.span))) {
+            Some(values) if quantity.is_none() && takes_quantity(template.function) => {
+                // What is unknown has been told.
+                if self.findings.len() == told && values.iter().all(|value| value.ty != Type::Unknown) {
+                    self.quantity_not_given(&signature.name, &params, span);
+                }
+                self.unknown(span)
+            }
             Some(values) => self.make(ExprKind::Call(made, values), result, span),
             None => self.unknown(span),
         }
@@ -160,9 +188,10 @@ impl<'t> Checker<'t> {
     fn signature_for(&mut self, template: &Template<'t>, capacities: &[u32]) -> (Vec<ParamInfo>, Type) {
         let named = template.names.iter().cloned().zip(capacities.iter().copied()).collect();
         let outer = std::mem::replace(&mut self.scope.capacities, named);
+        let takes_quantity = std::mem::replace(&mut self.scope.takes_quantity, takes_quantity(template.function));
         let params = self.params(template.module, &template.function.params, None);
         let result = self.written_type(template.module, &template.function.result);
-        self.scope.capacities = outer;
+        (self.scope.capacities, self.scope.takes_quantity) = (outer, takes_quantity);
         (params, result)
     }
 
@@ -200,6 +229,15 @@ impl<'t> Checker<'t> {
             }
         }
     }
+}
+
+/// Whether a function is one of any quantity.
+pub(super) fn takes_quantity(function: &tree::Function) -> bool {
+    function.params.iter().any(|param| names_quantity(&param.ty))
+}
+
+fn is_empty_list(written: &tree::Expr) -> bool {
+    matches!(&written.kind, tree::ExprKind::List(elements) if elements.is_empty())
 }
 
 /// The name that stands for the capacity of a list.

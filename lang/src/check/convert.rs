@@ -3,6 +3,7 @@
 use super::Checker;
 use super::advice::{scaling_help, unit_help};
 use super::expr::article;
+use super::quantity::{ANY_UNIT, is_zero};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -38,6 +39,7 @@ impl<'t> Checker<'t> {
             constant.is_some() || matches!(value.kind, ExprKind::Var(id) if self.scope.vars[id].walks_constants);
         match (&value.ty, ty) {
             (Type::Int | Type::Sign, Type::Quantity(d)) if d.is_none() => return Expr { ty: ty.clone(), ..value },
+            (_, Type::Quantity(d)) if d.is_of_quantity() && is_zero(&value) => return Expr { ty: ty.clone(), ..value },
             (Type::Sign, Type::Int) => return Expr { ty: ty.clone(), ..value },
             (Type::Int, Type::Sign) if constant.is_some_and(|x| x.abs() == 1.0) => {
                 return Expr { ty: Type::Sign, ..value };
@@ -166,7 +168,10 @@ impl<'t> Checker<'t> {
                 format!("it holds {m} at most: leave elements out, or declare it longer")
             }
             (Type::Int | Type::Quantity(_), Type::Quantity(d)) if value.ty.dimension() == Some(Dimension::NONE) => {
-                unit_help(constant, &d.unit())
+                match d.is_of_quantity() {
+                    true => ANY_UNIT.into(),
+                    false => unit_help(constant, &d.unit()),
+                }
             }
             (Type::Quantity(has), Type::Quantity(wants)) => scaling_help(*has, *wants, "it", constant.is_some()),
             (Type::Vector(has), Type::Vector(wants)) => scaling_help(*has, *wants, "it", false),

@@ -43,12 +43,8 @@ impl<'t> Checker<'t> {
         }
         self.fns_ahead.remove(&id);
         self.waiting += 1;
-        let capacities = self.take_capacities(id, m, function);
-        let outer = std::mem::replace(&mut self.scope.capacities, capacities);
-        let params = self.params(m, &function.params, None);
+        let (params, result) = self.take_template(id, m, function);
         self.waiting -= 1;
-        let result = self.written_type(m, &function.result);
-        self.scope.capacities = outer;
         let signature = &mut self.fn_signatures[id];
         signature.params = params;
         signature.result = Some(result);

@@ -34,6 +34,7 @@ mod params;
 mod payload;
 mod plausibility;
 mod polygon;
+mod quantity;
 mod recording;
 mod records;
 mod recursion;
@@ -255,8 +256,9 @@ struct Scope {
     is_nominal: bool,
     /// The parameters that are behaviors.
     behaviors: Vec<given_behaviors::GivenBehavior>,
-    /// What names of capacities stand for, in a function of lists of any.
+    /// What names of capacities stand for, in a function of lists of any; and whether it is one of any quantity.
     capacities: capacities::Capacities,
+    takes_quantity: bool,
 }
 
 impl Scope {
@@ -278,6 +280,7 @@ impl Scope {
             is_nominal: false,
             behaviors: Vec::new(),
             capacities: Vec::new(),
+            takes_quantity: false,
         }
     }
 }
@@ -338,8 +341,7 @@ pub struct Checker<'t> {
     findings: Vec<Diagnostic>,
     /// By the places of their names, where strategies that are derived stand, and where they name their bases.
     derived_strategies: BTreeMap<Span, (Span, Span)>,
-    /// What is wrong with parts of a base where another strategy has them, or with a behavior by what it is given; where that is, and what to
-    /// say there.
+    /// What is wrong with parts of a base where another strategy has them, or with a behavior by what it is given; where, and what to say.
     inherited_findings: Vec<(Diagnostic, Span, &'static str)>,
     /// What was declared, and what of it was read.
     names_used: unused::NamesUsed,

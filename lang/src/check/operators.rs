@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::expr::article;
+use super::quantity::with_zero;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -48,6 +49,8 @@ impl<'t> Checker<'t> {
                     self.report(finding);
                     return self.unknown(span);
                 }
+                let is_of_one_kind = !matches!(op.node, Binary::Mul | Binary::Div | Binary::Pow | Binary::Toward);
+                let (a, b) = if is_of_one_kind { with_zero(a, b) } else { (a, b) };
                 let of_constants = [&a, &b].into_iter().all(|e| matches!(e.kind, ExprKind::Number(_)));
                 let value = match op.node {
                     Binary::Add => self.sum(op, a, b, span),

@@ -1,6 +1,7 @@
 //! Parameters: their types, ranges and defaults, and what `--set` puts in place of a default.
 
 use super::expr::article;
+use super::quantity::is_of_quantity;
 use super::{Checker, ParamInfo, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -175,6 +176,15 @@ impl<'t> Checker<'t> {
     }
 
     fn constant_range(&mut self, m: usize, range: &tree::Range, ty: &Type) -> Option<Interval> {
+        if is_of_quantity(ty) {
+            let place = range.first.span.to(range.last.span);
+            let finding = Diagnostic::error(Code::RangesConstant, place, "no range can hold this parameter");
+            let finding = finding.here("a `Quantity` may be in any unit");
+            self.report(
+                finding.help("leave the range out, and hold what is computed with it with `clamp(x, low, high)`"),
+            );
+            return None;
+        }
         let scope = Scope::new(m, Setting::Constant);
         let ((first, last), _) =
             self.within(scope, |c| (c.expr_as(&range.first, ty, "the range"), c.expr_as(&range.last, ty, "the range")));

@@ -128,6 +128,9 @@ impl<'t> Checker<'t> {
 
     fn named_type(&mut self, m: usize, path: &tree::Path, factors: &[(tree::Name, f64)]) -> Type {
         let name = path.text();
+        if !self.quantity_is_known(path, factors) {
+            return Type::Unknown;
+        }
         if !factors.is_empty() {
             let mut dimension = self.dimension_of(&path.parts[0]).unwrap_or(Dimension::NONE);
             for (factor, power) in factors {

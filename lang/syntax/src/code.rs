@@ -246,6 +246,7 @@ codes! {
         TypesPosition = "position",
         TypesPower = "power",
         TypesProduct = "product",
+        TypesQuantity = "quantity",
         TypesQuotient = "quotient",
         TypesRecursive = "recursive",
         TypesResult = "result",

@@ -41,6 +41,12 @@ impl Generator {
         self.line("fn one_of(some: [Length?; 3], n: Int) -> Length? { some[n] }");
         self.line("fn place_of(some: [Point?; 3], n: Int) -> Point? { if n < 2 { some[n] } else { some.first } }");
         self.line("fn share(part: Length, whole: Length) -> Ratio { part / whole else 0.5 }");
+        self.line("fn nearer(a: Quantity, b: Quantity) -> Quantity { if abs(a) < abs(b) or b == 0 { a } else { b } }");
+        self.line("fn middle(some: [Quantity; n]) -> Quantity {");
+        self.line("    var sum: Quantity = 0");
+        self.line("    for each in some { sum = sum + nearer(each, 0) / n }");
+        self.line("    sum");
+        self.line("}");
         self.line("fn found_if(wanted: Bool, found: Found) -> Found? { if wanted { found } else { none } }");
         self.line("fn turned(h: Heading, mode: Mode) -> Heading {");
         self.line("    var to = h");

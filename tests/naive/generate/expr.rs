@@ -28,7 +28,7 @@ const CONDITIONS: [&str; 20] = [
 ];
 
 /// What makes a length.
-const LENGTHS: [&str; 17] = [
+const LENGTHS: [&str; 19] = [
     "($L + $L)",
     "($L - $L)",
     "($R * $L)",
@@ -46,15 +46,19 @@ const LENGTHS: [&str; 17] = [
     "line($P, $P).length",
     "sqrt(abs($L) * 4 m)",
     "twice($L, $I)",
+    "nearer($L, $L)",
+    "middle([$L, $L])",
 ];
 
 /// What makes a ratio.
-const RATIOS: [&str; 13] = [
+const RATIOS: [&str; 15] = [
     "($R + $R)",
     "($R - $R)",
     "($R * $R)",
     "($L / 7 m)",
     "share($L, $L)",
+    "nearer($R, $R)",
+    "middle([$R, $L / 1 m, $R])",
     "sin($A)",
     "cos($A)",
     "exp($R)",
