@@ -2,7 +2,7 @@
 //! quantity. For each capacity that one is called with there is a function of its own, which is checked like any other: in it `n` is a number.
 
 use super::args::Given;
-use super::quantity::{is_of_quantity, names_quantity};
+use super::quantity::{is_empty_list, is_of_quantity, names_quantity};
 use super::type_syntax::LIST_CAPACITY_MAX;
 use super::{Checker, ParamInfo, Signature};
 use crate::code::Code;
@@ -124,8 +124,7 @@ impl<'t> Checker<'t> {
                     capacities[place] = capacities[place].max(capacity);
                     Some(Given::Known(value))
                 }
-                (_, Some(written), ty) if is_of_quantity(ty) => Some(Given::Known(self.expr(written, None))),
-                (_, written, _) => written.map(Given::Written),
+                (_, written, ty) => written.map(|written| self.given_for(written, ty)),
             });
         }
         let (made, params, result) = if template.names.is_empty() {
@@ -234,10 +233,6 @@ impl<'t> Checker<'t> {
 /// Whether a function is one of any quantity.
 pub(super) fn takes_quantity(function: &tree::Function) -> bool {
     function.params.iter().any(|param| names_quantity(&param.ty))
-}
-
-fn is_empty_list(written: &tree::Expr) -> bool {
-    matches!(&written.kind, tree::ExprKind::List(elements) if elements.is_empty())
 }
 
 /// The name that stands for the capacity of a list.

@@ -170,7 +170,7 @@ impl<'t> Checker<'t> {
             self.takes_clauses_only(clause, arg);
             return None;
         }
-        let checked = self.arguments(&name, &plain, &given.plain, span, None).filter(|_| !given.failed)?;
+        let checked = self.arguments_of_clause(&name, &plain, &given.plain, span).filter(|_| !given.failed)?;
         let mut args = given.clauses;
         args.extend(plain.into_iter().map(|p| p.name).zip(checked.into_iter().map(ClauseArg::Value)));
         Some(ClauseUse { name, span, args })

@@ -1,4 +1,4 @@
-//! Functions of any quantity: `fn mean(values: [Quantity; n]) -> Quantity?`. `Quantity` has a dimension of its own, which no unit has: what holds of
+//! Functions and clauses of any quantity: `fn mean(values: [Quantity; n]) -> Quantity?`. `Quantity` has a dimension of its own, which no unit has: what holds of
 //! it holds of every quantity, and as all are kept in SI units, one body serves them all. Which one it is, each call says.
 
 use super::args::Given;
@@ -71,6 +71,11 @@ pub(super) fn is_of_quantity(ty: &Type) -> bool {
     }
 }
 
+/// Whether an empty list is written: of what it is empty, what stands beside it says.
+pub(super) fn is_empty_list(written: &tree::Expr) -> bool {
+    matches!(&written.kind, tree::ExprKind::List(elements) if elements.is_empty())
+}
+
 /// Whether a value is the 0 without a unit that is the zero of any quantity.
 pub(super) fn is_zero(value: &Expr) -> bool {
     value.ty.dimension() == Some(Dimension::NONE) && matches!(value.kind, ExprKind::Number(0.0))
@@ -98,6 +103,34 @@ impl Checker<'_> {
             "write the one that is meant, such as `Length`; only a function takes any, and says so in its parameters: `fn mean(values: [Quantity; n]) -> Quantity?`",
         ));
         false
+    }
+
+    /// What is written for a parameter; for one of any quantity it is looked at before it is known which one that is.
+    pub(super) fn given_for<'e>(&mut self, written: &'e tree::Expr, ty: &Type) -> Given<'e> {
+        match is_of_quantity(ty) && !is_empty_list(written) {
+            true => Given::Known(self.expr(written, None)),
+            false => Given::Written(written),
+        }
+    }
+
+    /// The arguments of a clause, which may be of any quantity, or of none where it is given nothing that has one.
+    pub(super) fn arguments_of_clause(
+        &mut self,
+        what: &str,
+        params: &[ParamInfo],
+        args: &[tree::Arg],
+        span: Span,
+    ) -> Option<Vec<Expr>> {
+        if !params.iter().any(|param| is_of_quantity(&param.ty)) {
+            return self.arguments(what, params, args, span, None);
+        }
+        let (written, failed) = self.by_parameter(what, params, args, false);
+        let written = written.into_iter().zip(params);
+        let given: Vec<Option<Given>> =
+            written.map(|(written, param)| written.map(|written| self.given_for(written, &param.ty))).collect();
+        let quantity = self.quantity_given(params, &given);
+        let (params, _) = self.signature_of_quantity(params.to_vec(), Type::Unknown, quantity, span)?;
+        self.values(what, &params, given, failed, (span, None))
     }
 
     /// What `Quantity` is by what is given for some parameters: a bare number may only lack its unit.

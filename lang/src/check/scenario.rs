@@ -2,6 +2,7 @@
 //! the standard library like those of any function.
 
 use super::derived::{Said, happens};
+use super::quantity::names_quantity;
 use super::{Checker, Def, Scope, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
@@ -42,6 +43,8 @@ impl<'t> Checker<'t> {
             nested.push(kind);
         }
         let mut infos = Vec::new();
+        let takes_quantity = params.iter().any(|param| names_quantity(&param.ty));
+        let outer = std::mem::replace(&mut self.scope.takes_quantity, takes_quantity);
         for (param, nested) in params.iter().zip(&nested) {
             if nested.is_some() {
                 self.names_used.define(&param.name, "a parameter");
@@ -57,6 +60,7 @@ impl<'t> Checker<'t> {
                 infos.extend(self.params(m, std::slice::from_ref(param), None));
             }
         }
+        self.scope.takes_quantity = outer;
         self.clauses[id].otherwise = params.iter().map(|param| param.default.as_ref()).collect();
         self.clauses[id].signature.params = infos;
         self.clauses[id].nested = nested;

@@ -138,9 +138,9 @@ impl<'a> Lowering<'a> {
         for (name, arg) in &clause.args {
             let value = match arg {
                 ClauseArg::Nested(inner) => ScenarioValue::Clause(self.clause(inner)),
-                ClauseArg::Value(e) => match (&e.kind, &e.ty) {
-                    (ExprKind::Text(parts), Type::Text) => ScenarioValue::Text(plain(parts)),
-                    _ => {
+                ClauseArg::Value(e) => match text(e) {
+                    Some(text) => ScenarioValue::Text(text),
+                    None => {
                         let valued = self.valued(e);
                         ScenarioValue::Words(valued.slot, valued.shape)
                     }
@@ -155,6 +155,15 @@ impl<'a> Lowering<'a> {
             args.push(ScenarioArg { name: name.clone(), value, span, is_default });
         }
         ScenarioClause { name: clause.name.clone(), place: self.sources.place(clause.span), span: clause.span, args }
+    }
+}
+
+/// A text that is written out, for a parameter that may be absent too.
+fn text(e: &hir::Expr) -> Option<String> {
+    match &e.kind {
+        ExprKind::Text(parts) if e.ty == Type::Text => Some(plain(parts)),
+        ExprKind::Present(inner) => text(inner),
+        _ => None,
     }
 }
 

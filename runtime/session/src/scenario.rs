@@ -3,6 +3,7 @@
 mod bottom;
 mod clause;
 mod defaults;
+mod listed;
 mod named;
 mod objected;
 mod played;
@@ -69,7 +70,7 @@ fn read(understood: &mut Understood, c: Clause, files: &Files, frame: Option<Tan
     match c.clause.name.as_str() {
         "bottom_grid" => bottom::grid(understood, c.read()?, files, frame),
         "recorded_plume" => recorded::recorded_plume(understood, c.read()?, files),
-        "played" => played::played(understood, c.read()?, files),
+        "played" => played::played(understood, c, files),
         "dialect" => dialect(c.read()?).map(|dialect| understood.dialect = Some(dialect)),
         "link_fault" => Err(cannot_be("it is what `albacore vehicle --link-faults` takes, not part of a world")),
         name if EnvironmentSetting::NAMES.contains(&name) => {
@@ -121,13 +122,16 @@ pub(crate) struct Wrong(Vec<Fault>);
 struct Fault {
     message: String,
     help: Option<String>,
+    /// The parameter that it is of, if it is of one alone.
+    param: Option<&'static str>,
 }
 
 impl Wrong {
     /// The same at its clause.
     pub fn of(self, clause: &ScenarioClause) -> impl Iterator<Item = Diagnostic> {
-        let span = clause.span;
-        self.0.into_iter().map(move |Fault { message, help }| {
+        self.0.into_iter().map(|Fault { message, help, param }| {
+            let written = clause.args.iter().find(|arg| !arg.is_default && param == Some(arg.name.as_str()));
+            let span = written.map_or(clause.span, |arg| arg.span);
             let finding = Diagnostic::error(Code::ScenariosClause, span, message);
             help.into_iter().fold(finding, Diagnostic::help)
         })
@@ -138,24 +142,31 @@ impl Wrong {
         let told = |fault: albacore_formats::Fault| Fault {
             message: format!("`{path}`: {}", fault.message),
             help: Some(fault.help),
+            param: None,
         };
         Wrong(faults.into_iter().map(told).collect())
     }
 
     /// What is wrong, and its mend.
     fn with(message: impl Into<String>, mend: impl Into<String>) -> Self {
-        Wrong(vec![Fault { message: message.into(), help: Some(mend.into()) }])
+        Wrong(vec![Fault { message: message.into(), help: Some(mend.into()), param: None }])
+    }
+
+    /// The same, of a parameter.
+    fn at(mut self, param: &'static str) -> Self {
+        self.0.iter_mut().for_each(|fault| fault.param = Some(param));
+        self
     }
 }
 
 /// What is wrong with a clause as a whole.
 fn cannot_be(what: &str) -> Wrong {
-    Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None }])
+    Wrong(vec![Fault { message: format!("this clause cannot be: {what}"), help: None, param: None }])
 }
 
 impl From<FileError> for Wrong {
     fn from(error: FileError) -> Wrong {
-        Wrong(vec![Fault { message: error.message, help: error.help }])
+        Wrong(vec![Fault { message: error.message, help: error.help, param: None }])
     }
 }
 

@@ -71,7 +71,13 @@ impl Shown {
                         told.values.extend(formatter.survey(grid));
                     }
                 }
-                ("played", Some(told)) => told.values.extend(played.next().into_iter().flat_map(samples::values)),
+                ("played", Some(told)) => {
+                    // What is listed is told in few words too.
+                    told.values.retain(|(name, _, source)| {
+                        *source == ValueSource::Said && name != "times" && name != "values"
+                    });
+                    told.values.extend(played.next().into_iter().flat_map(samples::values));
+                }
                 ("recorded_plume", _) => record::push_recorded(&world, &formatter, &mut clauses),
                 _ => {}
             }

@@ -154,12 +154,33 @@ impl<'a> MapAccess<'a> for Fields<'a> {
         self.next += 1;
         match &arg.value {
             ScenarioValue::Clause(clause) => seed.deserialize(Clause { clause, words }),
-            ScenarioValue::Text(text) => seed.deserialize(StrDeserializer::new(text)),
+            ScenarioValue::Text(text) => seed.deserialize(Written(text)),
             ScenarioValue::Words(slot, shape) => {
                 let read = seed.deserialize(Value { words, slot: *slot, shape });
                 read.map_err(|e: Unreadable| Unreadable { what: format!("`{}`: {}", arg.name, e.what), ..e })
             }
         }
+    }
+}
+
+/// A text that is written out, for a parameter that may be absent too.
+struct Written<'a>(&'a str);
+
+impl<'a> Deserializer<'a> for Written<'a> {
+    type Error = Unreadable;
+
+    fn deserialize_any<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Unreadable> {
+        visitor.visit_borrowed_str(self.0)
+    }
+
+    fn deserialize_option<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Unreadable> {
+        visitor.visit_some(self)
+    }
+
+    forward_to_deserialize_any! {
+        <V: Visitor<'a>>
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct newtype_struct seq
+        tuple tuple_struct map struct enum identifier ignored_any
     }
 }
 

@@ -1,6 +1,7 @@
-//! What a sensor tells as it was recorded: columns of a file such as `record` writes.
+//! What a sensor tells as it was recorded, columns of a file such as `record` writes, or as the scenario lists it.
 
-use super::{Understood, Wrong};
+use super::clause::Clause;
+use super::{Understood, Wrong, listed};
 use crate::files::{Files, load_text};
 use crate::recorders::recorded::{RECORDED_BYTES_MAX, cells};
 use albacore_formats::series::{self, Column, Columns, Numbers};
@@ -10,7 +11,7 @@ use albacore_lang::source::Source;
 use albacore_program::Shape;
 use albacore_sim::{Played, PlayedSample};
 use albacore_vehicle::measurements::{self, UTC, WATER_DEPTH};
-use albacore_vehicle::{Quantity, TICK_S};
+use albacore_vehicle::{Quantity, Reading, TICK_S};
 use albacore_wording::nearest;
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -20,7 +21,9 @@ use std::sync::LazyLock;
 #[serde(deny_unknown_fields)]
 pub struct PlayedClause {
     name: String,
-    file: String,
+    file: Option<String>,
+    times: Vec<f64>,
+    values: Vec<f64>,
 }
 
 /// The inputs that every script knows, and so their units.
@@ -42,30 +45,61 @@ pub fn parts(name: &str) -> Option<Vec<Part>> {
 }
 
 /// Reads what is played.
-pub fn played(understood: &mut Understood, clause: PlayedClause, files: &Files) -> Result<(), Wrong> {
-    let PlayedClause { name, file: path } = clause;
+pub fn played(understood: &mut Understood, c: Clause, files: &Files) -> Result<(), Wrong> {
+    let PlayedClause { name, file, times, values } = c.read()?;
     let (measurement, parts) = measured(&name).ok_or_else(|| unplayable(&name))?;
-    let bytes = files.data(&path, RECORDED_BYTES_MAX as u64)?;
     let quantity = measurements::info(measurement).quantity;
-    let (numbers, shapes): (Vec<Column>, Vec<&Shape>) = parts.iter().flat_map(|part| columns(&name, part)).unzip();
-    let in_si = |mut numbers: Numbers| {
-        numbers.iter_mut().zip(&shapes).for_each(|(number, shape)| *number = cells::in_si(*number, shape));
-        numbers
+    let readings = match (file, parts.as_slice()) {
+        (Some(_), _) if !(times.is_empty() && values.is_empty()) => {
+            let message = format!("`{name}` is played from a file and from a list");
+            return Err(Wrong::with(message, "leave out `file`, or `times` and `values`").at("file"));
+        }
+        (Some(path), parts) => of_file(understood, path, files, (&name, parts), quantity)?,
+        (None, _) if times.is_empty() && values.is_empty() => {
+            let help = "write `file: \"dive.csv\"`, or list them: `times: [0 s, 30 s], values: […]`";
+            return Err(Wrong::with(format!("nothing says what `{name}` tells"), help));
+        }
+        (None, [part]) if part.shape.words() == 1 => {
+            let can_be = |x| quantity.can_be([x, 0.0, 0.0, 0.0]);
+            let samples = listed::samples(c.clause, (&name, &part.shape), (&times, &values), can_be)?;
+            samples.into_iter().map(|(time, x)| (time, [x, 0.0, 0.0, 0.0])).collect()
+        }
+        (None, _) => {
+            let message = format!("a sample of `{name}` is more than one number, and none is listed");
+            return Err(Wrong::with(message, "play it from a file: `file: \"dive.csv\"`").at("values"));
+        }
     };
-    let can_be = |numbers: Numbers| numbers.iter().all(|x| x.is_finite()) && quantity.can_be(in_si(numbers));
-    let columns = Columns { time: cells::TIME, name: &name, numbers: &numbers };
-    let rows = series::read(&bytes, columns, can_be).map_err(|wrong| Wrong::in_file(&path, wrong.faults))?;
-    let sample = |(time, numbers): (f64, Numbers)| {
-        let mut reading = in_si(numbers);
+    let sample = |(time, mut reading): (f64, Reading)| {
         if quantity == Quantity::Direction {
             reading[0] = Heading::from_radians(reading[0]).radians();
         }
         PlayedSample { tick: (time / TICK_S).round() as u64, reading }
     };
-    let played = Played::new(measurement, rows.into_iter().map(sample).collect()).ok_or_else(|| unplayable(&name))?;
+    let played =
+        Played::new(measurement, readings.into_iter().map(sample).collect()).ok_or_else(|| unplayable(&name))?;
     understood.world.instruments.played.push(played);
-    understood.note_file(path, &bytes);
     Ok(())
+}
+
+/// The samples of a file, each its time in s and its numbers in SI units.
+fn of_file(
+    understood: &mut Understood,
+    path: String,
+    files: &Files,
+    (name, parts): (&str, &[Part]),
+    quantity: Quantity,
+) -> Result<Vec<(f64, Reading)>, Wrong> {
+    let bytes = files.data(&path, RECORDED_BYTES_MAX as u64)?;
+    let (numbers, shapes): (Vec<Column>, Vec<&Shape>) = parts.iter().flat_map(|part| columns(name, part)).unzip();
+    let in_si = |mut numbers: Numbers| {
+        numbers.iter_mut().zip(&shapes).for_each(|(number, shape)| *number = cells::in_si(*number, shape));
+        numbers
+    };
+    let can_be = |numbers: Numbers| numbers.iter().all(|x| x.is_finite()) && quantity.can_be(in_si(numbers));
+    let columns = Columns { time: cells::TIME, name, numbers: &numbers };
+    let rows = series::read(&bytes, columns, can_be).map_err(|wrong| Wrong::in_file(&path, wrong.faults))?;
+    understood.note_file(path, &bytes);
+    Ok(rows.into_iter().map(|(time, numbers)| (time, in_si(numbers))).collect())
 }
 
 /// The measurement of a name and its parts, if it can be played.

@@ -51,11 +51,11 @@ pub fn recorded_plume(understood: &mut Understood, clause: RecordedPlumeClause, 
 }
 
 fn wrong(path: &str, error: RecordingError) -> Wrong {
-    let fault = |fault| Fault { message: format!("`{path}`: {fault}"), help: Some(error.help.into()) };
+    let fault = |fault| Fault { message: format!("`{path}`: {fault}"), help: Some(error.help.into()), param: None };
     Wrong(error.faults.into_iter().map(fault).collect())
 }
 
 fn not_utf8(path: &str) -> Wrong {
     let help = "name the header of a record, which is JSON, not its binary".to_string();
-    Wrong(vec![Fault { message: format!("`{path}` is no text in UTF-8"), help: Some(help) }])
+    Wrong(vec![Fault { message: format!("`{path}` is no text in UTF-8"), help: Some(help), param: None }])
 }

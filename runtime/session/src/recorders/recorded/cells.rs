@@ -77,14 +77,19 @@ pub fn field(name: &str, label: &str) -> String {
     format!("{name}.{label}")
 }
 
-/// The heads of the columns of a value's numbers, each with its unit if it has one. A place and a vector have two.
-pub fn titles(name: &str, shape: &Shape) -> Vec<String> {
-    let unit = match shape {
+/// The unit in which the numbers of a value are recorded; empty where they have none.
+pub fn unit(shape: &Shape) -> &str {
+    match shape {
         Shape::Quantity(display) | Shape::Vector(display) => display.unit.as_str(),
         Shape::Heading => "deg",
         Shape::Depth | Shape::Altitude | Shape::Point => "m",
         _ => "",
-    };
+    }
+}
+
+/// The heads of the columns of a value's numbers, each with its unit if it has one. A place and a vector have two.
+pub fn titles(name: &str, shape: &Shape) -> Vec<String> {
+    let unit = unit(shape);
     let title = |name: &str| if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") };
     match shape {
         Shape::Point if is_beside(name) => PLACE.map(str::to_string).to_vec(),
