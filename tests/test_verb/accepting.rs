@@ -257,3 +257,41 @@ fn a_snapshot_behind_a_link_is_accepted_behind_it() {
     let (code, said) = project.test(&["--accept"]);
     assert!(code == Some(4) && said.contains("is a link that leads nowhere") && file.is_symlink(), "{said}");
 }
+
+/// Each row has its snapshots.
+#[test]
+fn the_snapshots_of_rows_are_told_apart() {
+    let project = Project::new("rows-kept", "10 s", "5 m");
+    let with_rows = |rows: &str| {
+        let script = include_str!("rows.alb");
+        let test =
+            format!("test \"kept\" {{\n    run legs in still seeds 1..1\n{rows}    snapshot switches of seed 1\n}}\n");
+        std::fs::write(project.0.join("north.alb"), script.split("test ").next().unwrap().to_string() + &test).unwrap();
+    };
+    with_rows("    with lasting: 10 s\n    with lasting: 20 s\n");
+    assert_eq!(project.test(&["--accept"]).0, Some(0));
+    let kept =
+        |row: &str| std::fs::read_to_string(project.0.join(format!("snapshots/north-kept.{row}-1.trace"))).unwrap();
+    assert_ne!(kept("1"), kept("2"));
+    assert_eq!(project.test(&[]).0, Some(0));
+    with_rows("    with lasting: 10 s\n    with lasting: 30 s\n");
+    let (code, said) = project.test(&[]);
+    assert_eq!((code, said.contains("seed 1 with lasting: 30 s: numerically different")), (Some(1), true), "{said}");
+}
+
+/// An attack: the second row of a test of `a.alb` had the snapshot of a test of `a-t.alb`, and `--accept` wrote one over the other.
+#[test]
+fn no_two_scripts_share_a_snapshot() {
+    let project = Project::new("shared", "10 s", "5 m");
+    std::fs::remove_file(project.0.join("north.alb")).unwrap();
+    let mission = include_str!("rows.alb").split("test ").next().unwrap();
+    let snapshot = "    snapshot switches of seed 1\n}\n";
+    let run = "    run legs in still seeds 1..1\n";
+    let rows = format!("{mission}test \"t\" {{\n{run}    with lasting: 10 s\n    with lasting: 20 s\n{snapshot}");
+    std::fs::write(project.0.join("a.alb"), rows).unwrap();
+    std::fs::write(project.0.join("a-t.alb"), format!("{mission}test \"2\" {{\n{run}{snapshot}")).unwrap();
+    assert_eq!(project.test(&["--accept"]).0, Some(0));
+    assert_eq!(std::fs::read_dir(project.0.join("snapshots")).unwrap().count(), 3);
+    let (code, said) = project.test(&[]);
+    assert_eq!(code, Some(0), "{said}");
+}

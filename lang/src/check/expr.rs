@@ -398,7 +398,7 @@ impl<'t> Checker<'t> {
                 if matches!(value.kind, ExprKind::Input(_, InputPart::IsNew)) {
                     let message =
                         "of an input that is sampled in every tick this never holds: there is no tick without a sample";
-                    let finding = Diagnostic::error(Code::TimeMomentary, span, message);
+                    let finding = Diagnostic::warning(Code::TimeMomentary, span, message);
                     self.report(finding.help("`new X` holds in the ticks in which a sample came: leave `becomes` out"));
                 }
                 self.temporal("becomes", ExprKind::Becomes(Box::new(value)), span)
