@@ -58,7 +58,7 @@ enum Import {
 }
 
 impl Doc {
-    /// Makes the pages: all of them, or none.
+    /// Makes the pages: all of them, or none, but where the disk takes some and then no more.
     pub fn run(&self) -> Exit {
         self.made().unwrap_or_else(|exit| exit)
     }

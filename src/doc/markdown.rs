@@ -1,6 +1,6 @@
 //! A page as Markdown. Comments are taken as such, so that they may hold lists and emphasis.
 
-use super::names::{Names, Use, anchor};
+use super::names::{Names, Use, anchor, url};
 use super::{Import, Module};
 use albacore_session::doc::{Declaration, Param};
 
@@ -42,7 +42,7 @@ pub fn index(modules: &[Module]) -> String {
             .to_string();
     for module in modules {
         let said = cell(&first_sentence(&module.page.text));
-        text.push_str(&format!("| [`{0}`]({0}.md) | {said} |\n", module.name));
+        text.push_str(&format!("| [`{}`]({}.md) | {said} |\n", module.name, url(&module.name)));
     }
     text
 }

@@ -85,10 +85,19 @@ impl Names {
 
     fn from(&self, home: usize, at: usize, anchor: &str) -> String {
         match self.modules.get(at) {
-            Some((module, _)) if at != home => format!("{module}.md#{anchor}"),
+            Some((module, _)) if at != home => format!("{}.md#{anchor}", url(module)),
             _ => format!("#{anchor}"),
         }
     }
+}
+
+/// A page's name as it stands in a link: what means something there, and what is no ASCII, by its bytes.
+pub fn url(name: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte);
+    name.bytes().fold(String::new(), |url, byte| match is_plain(byte) {
+        true => url + char::from(byte).encode_utf8(&mut [0; 4]),
+        false => url + &format!("%{byte:02X}"),
+    })
 }
 
 /// The anchor of a heading, as forges make it.

@@ -111,7 +111,7 @@ fn generated() {
         "map, cell, cell set, for map, while, while let, loop, finish, abort, report, log, default, limits, requires, recovery, abort on",
         "reaction of a mission, reaction of a strategy, reaction of a behavior, reaction of a table's behavior",
         "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
-        "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, no, no for, after",
+        "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, not, no for, after",
         "becomes after, every, false and, or over time, becomes of for",
         "event: begin, event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
         "event: leave Done, event: leave Rule, event: leave Until, event: leave TimedOut, event: leave Preempted",

@@ -223,7 +223,12 @@ impl<'t> Checker<'t> {
         span: Span,
     ) -> StmtKind {
         let mut checked = vec![(String::new(), self.expr(value, None))];
-        for (label, value) in fields {
+        for (nth, (label, value)) in fields.iter().enumerate() {
+            if let Some((first, _)) = fields[..nth].iter().find(|(before, _)| before.node == label.node) {
+                let message = format!("`{}` is reported twice at once", label.node);
+                let finding = Diagnostic::error(Code::ArgsTwice, label.span, message).label(first.span, "the first");
+                self.report(finding.help("give each value a label of its own"));
+            }
             checked.push((label.node.clone(), self.expr(value, None)));
         }
         for (_, value) in &mut checked {

@@ -1,9 +1,9 @@
 //! From the type that a value has to the one that is asked for: the few conversions there are, and what to say of others.
 
-use super::Checker;
 use super::advice::{scaling_help, unit_help};
 use super::expr::article;
 use super::quantity::{ANY_UNIT, is_zero};
+use super::{Checker, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -104,6 +104,13 @@ impl<'t> Checker<'t> {
         };
         // What has a name is declared as what it is counted from.
         let counted = |name: &str, origin: &str| {
+            if self.scope.setting == Setting::Constant {
+                return format!(
+                    "{} is counted from the {origin}: declare what it is computed from as {}",
+                    article(&wants),
+                    article(&wants)
+                );
+            }
             let declared = variable.map_or(String::new(), |variable| format!("declare it `{variable}: {wants}`, or "));
             format!("{} is counted from the {origin}: {declared}write `{name} + LENGTH` or a constant", article(&wants))
         };

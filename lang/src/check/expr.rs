@@ -325,7 +325,19 @@ impl<'t> Checker<'t> {
             );
             return self.unknown(span);
         }
-        let (holds, duration) = self.watched(|c| (c.condition(holds), c.duration(duration, "the time after `for`")));
+        let (holds, duration) = self.watched(|c| {
+            let holds = match &holds.kind {
+                tree::ExprKind::Unary(op, absent) if matches!(op.node, Unary::No) => c.negated(absent, holds.span),
+                tree::ExprKind::Unary(op, _) if matches!(op.node, Unary::Not) => {
+                    let message = "`not` before `for` can be read in two ways";
+                    let finding = Diagnostic::error(Code::TimeAmbiguous, op.span, message);
+                    c.report(finding.help("write `no X for T` for what has been absent for so long, `not (X for T)` for what has not been there for so long"));
+                    c.condition(holds)
+                }
+                _ => c.condition(holds),
+            };
+            (holds, c.duration(duration, "the time after `for`"))
+        });
         if duration.range.low > 0.0 && self.is_momentary(&holds) {
             self.report(
                 Diagnostic::error(
@@ -386,12 +398,12 @@ impl<'t> Checker<'t> {
 
     fn unary(&mut self, op: &crate::source::Spanned<Unary>, operand: &tree::Expr, span: Span) -> Expr {
         match op.node {
-            Unary::Not | Unary::No => {
-                // `no X for T` is `(not X) for T`: the grammar has made it so.
-                let is_watched = std::mem::replace(&mut self.scope.is_watched, true);
-                let value = self.condition(operand);
-                self.scope.is_watched = is_watched;
-                self.operation(Builtin::Not, vec![value], Type::Bool, span)
+            Unary::Not => self.negated(operand, span),
+            Unary::No => {
+                let finding =
+                    Diagnostic::error(Code::TimeAbsence, op.span, "`no` says that something is absent for a time");
+                self.report(finding.help("write `no X for T`; what does not hold now is `not X`"));
+                self.negated(operand, span)
             }
             Unary::Becomes => {
                 let value = self.watched(|c| c.condition(operand));
@@ -421,6 +433,14 @@ impl<'t> Checker<'t> {
                 self.signed(value, operand, span, true)
             }
         }
+    }
+
+    /// `not X`, and what has to hold for so long in `no X for T`.
+    fn negated(&mut self, operand: &tree::Expr, span: Span) -> Expr {
+        let is_watched = std::mem::replace(&mut self.scope.is_watched, true);
+        let value = self.condition(operand);
+        self.scope.is_watched = is_watched;
+        self.operation(Builtin::Not, vec![value], Type::Bool, span)
     }
 
     fn signed(&mut self, value: Expr, operand: &tree::Expr, span: Span, negative: bool) -> Expr {

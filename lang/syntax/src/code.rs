@@ -204,6 +204,7 @@ codes! {
         TestsTruth = "truth",
     }
     time {
+        TimeAbsence = "absence",
         TimeAmbiguous = "ambiguous",
         TimeAsk = "ask",
         TimeBody = "body",

@@ -276,7 +276,7 @@ impl Generator {
         let (feature, text) = match self.random.below(12) {
             0 => ("becomes", format!("becomes {x}")),
             1 => ("for", format!("{x} for {time}")),
-            2 => ("no", format!("no {x}")),
+            2 => ("not", format!("not {x}")),
             3 => ("no for", format!("no {x} for {time}")),
             4 => ("after", format!("after {time}")),
             5 => ("false and", format!("({x} for {time}) and {y}")),

@@ -21,6 +21,8 @@ pub(super) struct ReportColumns {
 /// A part of a report that has a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Part {
+    /// The statements whose reports have it, by their places among the program's.
+    sites: Vec<u32>,
     label: String,
     /// The fields of records that lead to it.
     fields: Vec<String>,
@@ -43,12 +45,16 @@ impl ReportColumns {
 
 /// The parts of all that is reported under a name.
 pub(super) fn parts(sites: &[ReportSite], name: &str) -> Vec<Part> {
-    let mut parts = Vec::new();
-    for (label, value) in sites.iter().filter(|site| site.name == name).flat_map(|site| &site.fields) {
-        let part = Part { label: label.clone(), fields: Vec::new(), unit: None, coordinate: None };
-        for part in part.of(&value.shape) {
-            if !parts.contains(&part) {
-                parts.push(part);
+    let mut parts: Vec<Part> = Vec::new();
+    for (site, fields) in (0..).zip(sites).filter(|(_, site)| site.name == name) {
+        for (label, value) in &fields.fields {
+            let whole =
+                Part { sites: vec![site], label: label.clone(), fields: Vec::new(), unit: None, coordinate: None };
+            for part in whole.of(&value.shape) {
+                match parts.iter_mut().find(|known| known.is_called_like(&part)) {
+                    Some(known) => known.sites.push(site),
+                    None => parts.push(part),
+                }
             }
         }
     }
@@ -77,6 +83,11 @@ impl Part {
         }
     }
 
+    fn is_called_like(&self, other: &Part) -> bool {
+        let called = |part: &Part| (part.label.clone(), part.fields.clone(), part.unit.clone(), part.coordinate);
+        called(self) == called(other)
+    }
+
     /// What it is called behind the name of its report: of a value that is one number without a unit there is nothing to say.
     fn name(&self) -> String {
         let unit = self.unit.as_ref().map(|unit| unit.replace(|c: char| !c.is_ascii_alphanumeric() && c != '%', "_"));
@@ -87,10 +98,13 @@ impl Part {
 
     /// Its cell in the row of a run; empty where the report has no such part, or holds nothing there.
     pub fn cell(&self, report: &Report) -> String {
+        if !self.sites.contains(&report.site) {
+            return String::new();
+        }
         let value = if self.label.is_empty() { Some(&report.value) } else { report.labelled.get(&self.label) };
         let value = self.fields.iter().try_fold(value.unwrap_or(&Value::Null), |value, field| value.get(field));
         let value = match &self.unit {
-            Some(unit) => value.filter(|value| value["unit"] == unit.as_str()).and_then(|value| value.get("value")),
+            Some(_) => value.and_then(|value| value.get("value")),
             None => value,
         };
         let value = value.and_then(|value| self.coordinate.map_or(Some(value), |name| value.get(name)));
@@ -139,7 +153,7 @@ mod tests {
             ("seen", record),
             ("outline", Shape::Area(16)),
         ];
-        let parts = parts(&[site(&fields), site(&[("", quantity("m"))])], "visit");
+        let parts = parts(&[site(&fields), site(&[("", quantity("m"))]), site(&[("number", Shape::Point)])], "visit");
         let columns = ReportColumns { name: "visit".into(), nth: 1, is_timed: true, parts };
         let names = [
             "visit_2_t_s",
@@ -153,6 +167,8 @@ mod tests {
             "visit_2_seen_speed_m_s",
             "visit_2_outline",
             "visit_2_m",
+            "visit_2_number_north_m",
+            "visit_2_number_east_m",
         ];
         assert_eq!(columns.names().collect::<Vec<_>>(), names);
         let place = json!({ "north_m": 1.5, "east_m": -2.0, "latitude_deg": 36.0 });
@@ -165,10 +181,16 @@ mod tests {
         let labelled = serde_json::from_value(labelled).unwrap();
         let cells = |report: &Report| columns.parts.iter().map(|part| part.cell(report)).collect::<Vec<_>>();
         let first = cells(&Report { value: place, labelled, ..Report::default() });
-        assert_eq!(first, ["1.500", "-2.000", "3", "0.123456789", "1.500", "-2.000", "1.5", "{\"corners\":[]}", ""]);
-        // Another statement reports under the same name, a length.
-        let other = cells(&Report { value: json!({ "value": 4.0, "unit": "m" }), ..Report::default() });
-        assert_eq!(other, ["", "", "", "", "", "", "", "", "4.000"]);
+        assert_eq!(
+            first,
+            ["1.500", "-2.000", "3", "0.123456789", "1.500", "-2.000", "1.5", "{\"corners\":[]}", "", "", ""]
+        );
+        // Other statements report under the same name, a length and a place.
+        let other = cells(&Report { value: json!({ "value": 4.0, "unit": "m" }), site: 1, ..Report::default() });
+        assert_eq!(other, ["", "", "", "", "", "", "", "", "4.000", "", ""]);
+        let labelled = serde_json::from_value(json!({ "number": { "north_m": 1.0, "east_m": 2.0 } })).unwrap();
+        let third = cells(&Report { labelled, site: 2, ..Report::default() });
+        assert_eq!(third, ["", "", "", "", "", "", "", "", "", "1.000", "2.000"]);
     }
 
     #[test]

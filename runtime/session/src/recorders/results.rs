@@ -258,6 +258,7 @@ impl Results {
         let mut values: BTreeMap<_, _> = values.collect();
         self.reports.listed.push(Report {
             name: site.name.clone(),
+            site: id,
             t_s,
             north_m: place.map(|p| p.north),
             east_m: place.map(|p| p.east),
