@@ -345,6 +345,12 @@ fn the_water_is_asked_for_without_an_instrument() {
     insta::assert_snapshot!(failed_beside("water", include_str!("test_verb/water.alb"), 1));
 }
 
+/// A behavior that is entered where another is given it was said never to be, and a list of records with a text could not be counted.
+#[test]
+fn behaviors_that_are_given_are_known_and_so_are_records_with_texts() {
+    insta::assert_snapshot!(failed_beside("given", include_str!("test_verb/given.alb"), 1));
+}
+
 #[test]
 fn each_row_of_a_table_is_held_to_all_that_is_expected() {
     insta::assert_snapshot!(failed_beside("rows", include_str!("test_verb/rows.alb"), 2));

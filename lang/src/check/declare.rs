@@ -94,6 +94,8 @@ impl<'t> Checker<'t> {
                 self.check_item(m, item);
             }
         }
+        // What a test asks of a behavior, or of a report, may stand in one that is made of another.
+        self.check_made_activities();
         for (m, module) in modules.iter().enumerate() {
             for item in &module.tree.items {
                 if let Item::Test(test) = item {
@@ -101,7 +103,6 @@ impl<'t> Checker<'t> {
                 }
             }
         }
-        self.check_made_activities();
         self.check_made_functions();
         self.tell_nominal();
         self.holes_are_read();

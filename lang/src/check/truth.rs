@@ -367,8 +367,7 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         };
         let another = types.iter().find(|other| ***other != ty).map(|other| self.type_name(other));
-        let has_text = self.types.shape(&ty).has_text();
-        if another.is_some() || has_text {
+        if another.is_some() || *ty.present() == Type::Text {
             let name = self.type_name(&ty);
             let message = match another {
                 Some(other) => format!("this is reported as {} here, as {} there", article(&name), article(&other)),

@@ -9,6 +9,8 @@ use albacore_program::{Compute, Loop, Op, Rounds, Slot, Statement, StatementPart
 const TOLD_MAX: usize = 40;
 /// How it is done, and how long it may take, are not told: what stands behind these words.
 const MANNER: [&str; 2] = ["at", "within"];
+/// When it ends is told: what stands behind these.
+const END: [&str; 2] = ["for", "until"];
 /// What a round is called of a loop that walks nothing with a name.
 const ROUND: &str = "round";
 
@@ -70,7 +72,12 @@ impl<'a> Lowering<'a> {
 /// A statement on one line, without comments and without the name that its outcome gets; what is too long is cut between two words.
 fn shortened(text: &str, is_bound: bool) -> String {
     let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
-    let words: Vec<&str> = lines.flat_map(str::split_whitespace).take_while(|word| !MANNER.contains(word)).collect();
+    let mut is_told = true;
+    let words = lines.flat_map(str::split_whitespace).filter(|word| {
+        is_told = !MANNER.contains(word) && (is_told || END.contains(word));
+        is_told
+    });
+    let words: Vec<&str> = words.collect();
     let line = words.join(" ");
     let line = if is_bound { line.split_once("= ").map_or(line.as_str(), |(_, said)| said) } else { &line };
     let Some((most, _)) = line.char_indices().nth(TOLD_MAX) else { return line.to_string() };
@@ -156,6 +163,7 @@ mod tests {
     fn statements_are_told_on_one_short_line() {
         assert_eq!(shortened("wait // here\n    for 5 min at depth 3 m", false), "wait for 5 min");
         assert_eq!(shortened("let there = goto stop.at\n within 5 min", true), "goto stop.at");
+        assert_eq!(shortened("hold at depth 0 m until x < 3 m within 5 min", false), "hold until x < 3 m");
         assert_eq!(
             shortened("goto op.center until salinity > 35 or is_deep", false),
             "goto op.center until salinity > 35 or …"
