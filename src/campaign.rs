@@ -170,7 +170,11 @@ impl Campaign {
         let (crowded, most) = tally.crowded();
         if crowded > 0 {
             let what = format!("{crowded} of {} runs reported more often than the table has columns for", tally.runs());
-            message::warning(&what, &format!("with `--reports {most}` there is room for all"));
+            let help = match most <= REPORTS_MAX {
+                true => format!("with `--reports {most}` there is room for all"),
+                false => format!("`--reports {REPORTS_MAX}` is the most: `run --seed N --json` has more of one run"),
+            };
+            message::warning(&what, &help);
         }
     }
 

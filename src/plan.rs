@@ -3,6 +3,7 @@
 use crate::exit::Exit;
 use crate::message;
 use albacore_session::{FileError, Plan, PlanError, Script, SourceDigest, Wanted};
+use albacore_trace::Digest;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -49,7 +50,16 @@ pub struct ScriptDigest {
 
 /// The scripts of a plan, the mission's own first. The texts of `--set` are read as scripts too, and are none of them.
 pub fn scripts(plan: &Plan) -> Vec<ScriptDigest> {
-    plan.sources.iter().filter(|source| !source.name.starts_with("--set ")).map(ScriptDigest::of).collect()
+    plan.sources.iter().filter(|source| !is_option(source)).map(ScriptDigest::of).collect()
+}
+
+/// Whether a source is the text of a `--set`. A file of data may be called like one.
+fn is_option(source: &SourceDigest) -> bool {
+    source.name.strip_prefix("--set ").is_some_and(|text| {
+        let mut digest = Digest::new();
+        digest.text(text);
+        digest.value() == source.digest
+    })
 }
 
 /// The script that the world of a plan stands in, if it stands in one.

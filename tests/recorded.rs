@@ -54,6 +54,41 @@ fn a_run_leaves_what_it_recorded_and_says_how_much() {
     assert!(told.contains(&format!("  recorded {} rows\n", table.lines().count() - 1)), "{told}");
 }
 
+const TWICE: &str = "behavior leg {
+    record temperature at 0.5 Hz
+    wait for 8 s
+}
+mission twice in w within 20 min {
+    area op = rectangle(center: point(0 m, 0 m), along: 0 deg, length: 400 m, width: 400 m)
+    limits { speed <= 2.5 m/s }
+    requires { heading, position fresh 5 s, else abort }
+    recovery within 5 min { wait for 1 s }
+    record temperature at 1 Hz
+    leg()
+}
+scenario w = still_water with { played(\"temperature\", file: \"--set t.csv\") }
+";
+
+/// An attack: of two clauses that record one input the slower one wrote a sample again. And a file of data that is called like an option was
+/// none of those that a run was made from.
+#[test]
+fn a_sample_stands_once_and_every_file_is_named() {
+    let folder = out("twice");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("albacore.toml"), "").unwrap();
+    std::fs::write(folder.join("twice.alb"), TWICE).unwrap();
+    std::fs::write(folder.join("--set t.csv"), "time (s),temperature (degC)\n0.8,11\n5.3,12\n").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(["run", "twice.alb", "--out", "run"]).current_dir(&folder).stdin(Stdio::null());
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let table = std::fs::read_to_string(folder.join("run/recorded.csv")).unwrap();
+    let told = table.lines().skip(1).filter_map(|row| row.rsplit(',').next()).filter(|cell| !cell.is_empty());
+    assert_eq!(told.collect::<Vec<_>>(), ["11", "12"], "{table}");
+    let record = std::fs::read_to_string(folder.join("run/run.json")).unwrap();
+    assert!(record.contains("\"--set t.csv\""), "{record}");
+}
+
 /// A table holds rows alone: the mark that others have in themselves stands in `run.json`.
 #[test]
 fn a_table_that_was_changed_is_replaced_by_no_run() {

@@ -106,6 +106,9 @@ pub struct Report {
     pub value: serde_json::Value,
     /// What was reported beside it, by its labels.
     pub labelled: BTreeMap<String, serde_json::Value>,
+    /// Which of those of its name it is, from 0.
+    #[serde(skip)]
+    pub nth: u64,
     /// Which of the program's reporting statements it is of.
     #[serde(skip)]
     pub site: u32,

@@ -107,7 +107,7 @@ impl Columns {
             (run.reports.len() as u64 + run.more_reports).to_string(),
         ];
         for columns in &self.reports {
-            let report = run.reports.iter().filter(|r| r.name == columns.name).nth(columns.nth);
+            let report = run.reports.iter().find(|r| r.name == columns.name && r.nth == columns.nth as u64);
             if columns.is_timed {
                 cells.push(seconds(report.map(|r| r.t_s)));
                 cells.push(metres(report.and_then(|r| r.error_m)));

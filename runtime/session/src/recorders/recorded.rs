@@ -166,9 +166,11 @@ impl Recorded {
         let depth = self.since(self.place.depth, recent).map(|(_, reading)| number::digits(reading[0]));
         cells::put(&mut row, &depth.unwrap_or_default());
         for (at, column) in self.columns.iter().enumerate() {
-            let clauses = due.iter().map(|&clause| &self.clauses[clause]).filter(|clause| clause.columns.contains(&at));
-            let sample =
-                clauses.map(|clause| clause.since).min().and_then(|since| self.since(column.measurement, since));
+            let is_due = due.iter().any(|&clause| self.clauses[clause].columns.contains(&at));
+            // By whichever clause it was due last: no sample stands twice.
+            let since =
+                self.clauses.iter().filter(|clause| clause.columns.contains(&at)).map(|clause| clause.since).max();
+            let sample = since.filter(|_| is_due).and_then(|since| self.since(column.measurement, since));
             let input = &self.program.inputs[column.input];
             cells::cells(&mut row, input, sample.map(|(_, reading)| reading), self.frame);
         }

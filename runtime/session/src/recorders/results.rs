@@ -258,6 +258,7 @@ impl Results {
         let mut values: BTreeMap<_, _> = values.collect();
         self.reports.listed.push(Report {
             name: site.name.clone(),
+            nth: self.reports.named(&site.name).map_or(0, |named| named.count - 1),
             site: id,
             t_s,
             north_m: place.map(|p| p.north),
