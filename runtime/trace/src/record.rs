@@ -5,7 +5,7 @@ use crate::behavior::Release;
 use crate::journal::snapshot;
 use albacore_geometry::Point;
 use albacore_machine::{Event, Outcome};
-use albacore_program::{AREA_CORNER_WORDS, ActivityId, area_words};
+use albacore_program::{AREA_CORNER_WORDS, ActivityId};
 use albacore_vehicle::{Command, Snapshot, Truth};
 use serde::{Deserialize, Serialize};
 
@@ -118,9 +118,10 @@ impl TickRecord {
 /// The words of each of some areas that stand one after another; what is cut off is none.
 pub fn areas(mut words: &[f64]) -> Vec<&[f64]> {
     let mut areas = Vec::new();
-    while let Some((area, rest)) =
-        words.first().and_then(|&corners| words.split_at_checked(area_words(corners as u32) as usize))
-    {
+    while let Some((&corners, _)) = words.split_first() {
+        // A journal may say any number: it is no more than there is.
+        let width = (corners as usize).saturating_mul(AREA_CORNER_WORDS as usize).saturating_add(1);
+        let Some((area, rest)) = words.split_at_checked(width) else { break };
         areas.push(area);
         words = rest;
     }
@@ -136,5 +137,20 @@ fn said(event: &Event) -> usize {
         | Event::Began(_, words)
         | Event::Switched { values: words, .. } => size_of_val(words.as_slice()),
         _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::areas;
+
+    #[test]
+    fn areas_are_told_apart_and_what_is_cut_off_or_cannot_be_is_none() {
+        let words = [1.0, 2.0, 3.0, 0.0, 1.0, 0.0, 2.0, 5.0];
+        assert_eq!(areas(&words), [&words[..5], &words[5..6]]);
+        for corners in [f64::INFINITY, 4e9, 1e300] {
+            assert!(areas(&[corners, 0.0]).is_empty(), "{corners}");
+        }
+        assert_eq!(areas(&[f64::NAN, -1.0]).len(), 2);
     }
 }
