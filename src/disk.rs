@@ -38,13 +38,13 @@ pub fn rewrite(path: &Path, was: Option<&str>, text: &str) -> io::Result<u64> {
 pub fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().as_encoded_bytes();
     let part = |chunk: std::str::Utf8Chunk| {
-        chunk.invalid().iter().fold(marked(chunk.valid()), |text, byte| text + &format!("%{byte:02X}"))
+        chunk.invalid().iter().fold(escaped(chunk.valid()), |text, byte| text + &format!("%{byte:02X}"))
     };
     stem.utf8_chunks().map(part).collect()
 }
 
 /// A text in which nothing looks like a byte that is written as `%FF`.
-fn marked(text: &str) -> String {
+fn escaped(text: &str) -> String {
     let is_hex = |byte: Option<&u8>| byte.is_some_and(|byte| matches!(byte, b'0'..=b'9' | b'A'..=b'F'));
     let looks_like_one = |at: usize| is_hex(text.as_bytes().get(at + 1)) && is_hex(text.as_bytes().get(at + 2));
     text.char_indices().fold(String::new(), |text, (at, c)| match c {

@@ -184,54 +184,22 @@ impl Test {
         }
         let fails = !problems.is_empty();
         for (run, trace) in traces {
-            problems.extend(match self.accept {
-                true => self.accept(at.path, result, run, trace, count),
-                false => self.compare(at.path, result, run, trace, fails),
+            let file = snapshot_file(at.path, result, run);
+            problems.extend(match stored(&file, trace) {
+                Err(error) if self.accept => {
+                    vec![format!("        `{}` is there already, and {error}", file.display())]
+                }
+                Err(error) => vec![format!("        `{}` cannot be read: {error}", file.display())],
+                Ok(Some(stored)) if is_same(&stored, trace) => Vec::new(),
+                Ok(stored) if self.accept => accept(&file, stored.as_deref(), trace, count),
+                Ok(stored) => self.compare(&file, stored, run, trace, fails),
             });
         }
         problems
     }
 
-    /// Makes a trace the snapshot; gives why that cannot be, in lines.
-    fn accept(&self, script: &Path, result: &TestResult, run: &TestRun, trace: &str, count: &mut Count) -> Vec<String> {
-        let file = snapshot_file(script, result, run);
-        let stored = match stored(&file, trace) {
-            Ok(stored) => stored,
-            Err(error) => return vec![format!("        `{}` is there already, and {error}", file.display())],
-        };
-        if stored.as_deref().is_some_and(|stored| is_same(stored, trace)) {
-            return Vec::new();
-        }
-        if let Some(line) = foreign(stored.as_deref()) {
-            return vec![
-                format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
-                THEIRS.to_string(),
-            ];
-        }
-        let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
-        match made.and_then(|()| disk::rewrite(&file, stored.as_deref(), trace)) {
-            Ok(others) => {
-                say(&format!("        wrote {}", file.display()));
-                message::parted(&file, others);
-                Vec::new()
-            }
-            Err(error) => {
-                count.unwritten = true;
-                vec![format!("        {}", not_written(&file, &error))]
-            }
-        }
-    }
-
     /// Compares a trace with its snapshot, of a test that `fails` or does not; gives what is wrong, in lines.
-    fn compare(&self, script: &Path, result: &TestResult, run: &TestRun, trace: &str, fails: bool) -> Vec<String> {
-        let file = snapshot_file(script, result, run);
-        let stored = match stored(&file, trace) {
-            Ok(stored) => stored,
-            Err(error) => return vec![format!("        `{}` cannot be read: {error}", file.display())],
-        };
-        if stored.as_deref().is_some_and(|stored| is_same(stored, trace)) {
-            return Vec::new();
-        }
+    fn compare(&self, file: &Path, stored: Option<String>, run: &TestRun, trace: &str, fails: bool) -> Vec<String> {
         let foreign = foreign(stored.as_deref());
         let Some(stored) = stored else {
             return vec![
@@ -339,6 +307,28 @@ fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {
         Ok(bytes) => String::from_utf8(bytes).map(Some).map_err(|_| "it is no text in UTF-8".to_string()),
         Err(Unread::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Makes a trace the snapshot; gives why that cannot be, in lines.
+fn accept(file: &Path, stored: Option<&str>, trace: &str, count: &mut Count) -> Vec<String> {
+    if let Some(line) = foreign(stored) {
+        return vec![
+            format!("        `{}` is there already, and its line {line} is none of a trace", file.display()),
+            THEIRS.to_string(),
+        ];
+    }
+    let made = file.parent().map_or(Ok(()), std::fs::create_dir_all);
+    match made.and_then(|()| disk::rewrite(file, stored, trace)) {
+        Ok(others) => {
+            say(&format!("        wrote {}", file.display()));
+            message::parted(file, others);
+            Vec::new()
+        }
+        Err(error) => {
+            count.unwritten = true;
+            vec![format!("        {}", not_written(file, &error))]
+        }
     }
 }
 

@@ -67,7 +67,9 @@ impl<'t> Checker<'t> {
         };
         let Some((action, ends, result_ty)) = done else {
             // What is wrong with it has been told: its name is no second mistake.
-            bind.map(|(name, _)| self.declare(name, VarKind::Let, Type::Unknown));
+            if let Some((name, _)) = bind {
+                self.declare(name, VarKind::Let, Type::Unknown);
+            }
             return None;
         };
         let duration = timed.duration.as_ref().map(|e| self.duration(e, "the time after `for`"));

@@ -4,6 +4,7 @@ use super::cell::plain;
 use super::report_columns::{ReportColumns, parts};
 use crate::summary::Summary;
 use albacore_program::{Program, number};
+use std::collections::BTreeSet;
 
 /// The columns of every table. `report_t_s` and `error_m` are of the first report; `reports` counts all.
 const FIXED: [&str; 11] = [
@@ -54,15 +55,14 @@ impl Columns {
         }
         let has_one_name = reported.len() == 1;
         let mut names: Vec<String> = FIXED.map(str::to_string).to_vec();
+        let mut taken: BTreeSet<String> = names.iter().cloned().collect();
         let mut reports = Vec::new();
         for name in reported {
             let parts = parts(&program.reports, name);
             for nth in 0..reports_of_each {
                 let is_timed = nth > 0 || !has_one_name;
                 let columns = ReportColumns { name: name.to_string(), nth, is_timed, parts: parts.clone() };
-                for name in columns.names() {
-                    names.push(unused(&names, name));
-                }
+                names.extend(columns.names().into_iter().map(|name| unused(&mut taken, &name)));
                 reports.push(columns);
             }
         }
@@ -79,7 +79,7 @@ impl Columns {
         let mut at = FIXED.len();
         let is_told = |columns: &ReportColumns| {
             let time = if columns.is_timed { cells.get(at) } else { None };
-            at += columns.names().count();
+            at += columns.count();
             !time.copied().unwrap_or_else(|| Self::cell(cells, "report_t_s")).is_empty()
         };
         self.reports.iter().map(is_told).filter(|told| *told).count()
@@ -126,9 +126,9 @@ impl Columns {
 }
 
 /// The name as it stands in the table, or what is made of it when another column has it.
-fn unused(names: &[String], name: String) -> String {
-    let mut name = plain(&name);
-    while names.contains(&name) {
+fn unused(taken: &mut BTreeSet<String>, name: &str) -> String {
+    let mut name = plain(name);
+    while !taken.insert(name.clone()) {
         name.push('_');
     }
     name

@@ -33,13 +33,17 @@ pub(super) struct Part {
 
 impl ReportColumns {
     /// Their names, not all of which need be different.
-    pub fn names(&self) -> impl Iterator<Item = String> {
+    pub fn names(&self) -> Vec<String> {
         let Self { name, nth, .. } = self;
         let prefix = if *nth == 0 { name.clone() } else { format!("{name}_{}", nth + 1) };
         let timed = ["t_s", "error_m"].into_iter().filter(|_| self.is_timed).map(str::to_string);
-        let parts = self.parts.iter().map(Part::name);
-        let names: Vec<String> = timed.chain(parts).collect();
-        names.into_iter().map(move |name| if name.is_empty() { prefix.clone() } else { format!("{prefix}_{name}") })
+        let behind = |part: String| if part.is_empty() { prefix.clone() } else { format!("{prefix}_{part}") };
+        timed.chain(self.parts.iter().map(Part::name)).map(behind).collect()
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.parts.len() + if self.is_timed { 2 } else { 0 }
     }
 }
 
@@ -84,16 +88,18 @@ impl Part {
     }
 
     fn is_called_like(&self, other: &Part) -> bool {
-        let called = |part: &Part| (part.label.clone(), part.fields.clone(), part.unit.clone(), part.coordinate);
-        called(self) == called(other)
+        (&self.label, &self.fields, &self.unit, self.coordinate)
+            == (&other.label, &other.fields, &other.unit, other.coordinate)
     }
 
     /// What it is called behind the name of its report: of a value that is one number without a unit there is nothing to say.
     fn name(&self) -> String {
-        let unit = self.unit.as_ref().map(|unit| unit.replace(|c: char| !c.is_ascii_alphanumeric() && c != '%', "_"));
-        let words = [Some(self.label.clone())].into_iter().chain(self.fields.iter().cloned().map(Some));
-        let words = words.chain([self.coordinate.map(str::to_string), unit]).flatten();
-        words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
+        let mut words = vec![self.label.clone()];
+        words.extend_from_slice(&self.fields);
+        words.extend(self.coordinate.map(str::to_string));
+        words.extend(self.unit.as_ref().map(|unit| unit.replace(|c: char| !c.is_ascii_alphanumeric(), "_")));
+        words.retain(|word| !word.is_empty());
+        words.join("_")
     }
 
     /// Its cell in the row of a run; empty where the report has no such part, or holds nothing there.
@@ -170,7 +176,8 @@ mod tests {
             "visit_2_number_north_m",
             "visit_2_number_east_m",
         ];
-        assert_eq!(columns.names().collect::<Vec<_>>(), names);
+        assert_eq!(columns.names(), names);
+        assert_eq!(columns.count(), names.len());
         let place = json!({ "north_m": 1.5, "east_m": -2.0, "latitude_deg": 36.0 });
         let labelled = json!({
             "number": 3,
