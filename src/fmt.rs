@@ -17,7 +17,7 @@ const CHARS_MAX: usize = 400;
 /// Format scripts.
 #[derive(clap::Args)]
 pub struct Fmt {
-    /// Scripts, or folders with scripts at any depth; `-` formats standard input to standard output.
+    /// Scripts, or folders with scripts at any depth, whose links are passed over; `-` formats standard input to standard output.
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     /// Write nothing: list what would change, and exit with 1 if anything would.

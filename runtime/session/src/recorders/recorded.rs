@@ -148,6 +148,13 @@ impl Recorded {
         self.latest.get(measurement?).copied().flatten().filter(|(then, _)| *then >= tick)
     }
 
+    /// The first tick of which a column that is due tells samples: behind the tick on which it was due last, by whichever clause, so that
+    /// no sample stands twice. `None` where it is not due.
+    fn due_since(&self, column: usize, due: &[usize]) -> Option<u64> {
+        due.iter().find(|&&clause| self.clauses[clause].columns.contains(&column))?;
+        self.clauses.iter().filter(|clause| clause.columns.contains(&column)).map(|clause| clause.since).max()
+    }
+
     /// A row with the columns of some clauses.
     fn row(&mut self, tick: u64, due: &[usize]) {
         if self.left_out > 0 {
@@ -163,14 +170,16 @@ impl Recorded {
         let recent = (tick + 1).saturating_sub(PLACE_TICKS);
         let place = self.since(self.place.position, recent).map(|(_, at)| Point::new(at[0], at[1]));
         cells::place(&mut row, place, self.frame);
-        let depth = self.since(self.place.depth, recent).map(|(_, reading)| number::digits(reading[0]));
+        // A depth that is recorded has no column besides this one, nor a sigma by which a repeated one is known.
+        let recorded = self
+            .columns
+            .iter()
+            .position(|column| column.measurement.is_some() && column.measurement == self.place.depth);
+        let from = recorded.and_then(|at| self.due_since(at, due)).unwrap_or(recent);
+        let depth = self.since(self.place.depth, from).map(|(_, reading)| number::digits(reading[0]));
         cells::put(&mut row, &depth.unwrap_or_default());
         for (at, column) in self.columns.iter().enumerate() {
-            let is_due = due.iter().any(|&clause| self.clauses[clause].columns.contains(&at));
-            // By whichever clause it was due last: no sample stands twice.
-            let since =
-                self.clauses.iter().filter(|clause| clause.columns.contains(&at)).map(|clause| clause.since).max();
-            let sample = since.filter(|_| is_due).and_then(|since| self.since(column.measurement, since));
+            let sample = self.due_since(at, due).and_then(|since| self.since(column.measurement, since));
             let input = &self.program.inputs[column.input];
             cells::cells(&mut row, input, sample.map(|(_, reading)| reading), self.frame);
         }

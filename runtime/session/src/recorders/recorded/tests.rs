@@ -68,14 +68,28 @@ fn what_no_input_takes_is_not_recorded() {
     assert_eq!(recorded.text(), format!("{HEAD}1.0,,,,7\n"));
 }
 
-/// Place and depth are as old as limits take them to be, at most.
+/// Place and depth beside a row are as old as limits take them to be, at most.
 #[test]
 fn a_depth_beside_a_row_grows_old() {
+    let mut recorded = recorded(2000);
+    // Without the mission's own clause, which records depth.
+    recorded.clauses.remove(0);
+    recorded.take(&tick(5, &[1], &[(0, 3.5)]));
+    (6..=56).for_each(|at| recorded.take(&tick(at, &[1], &[])));
+    let rows: Vec<&str> = recorded.text().lines().skip(1).filter(|row| row.contains(".0,")).collect();
+    assert_eq!(rows, ["1.0,,,3.5,", "2.0,,,3.5,", "3.0,,,3.5,", "4.0,,,3.5,", "5.0,,,3.5,"]);
+    assert!(recorded.text().ends_with("5.4,,,3.5,\n5.6,,,,\n"), "{}", recorded.text());
+}
+
+/// Where depth itself is recorded, none stands twice in its rows; beside those of others it stands as ever.
+#[test]
+fn a_depth_that_is_recorded_is_told_once() {
     let mut recorded = recorded(1000);
-    recorded.take(&tick(5, &[0], &[(0, 3.5)]));
-    (6..=60).for_each(|at| recorded.take(&tick(at, &[0], &[])));
-    let rows: Vec<&str> = recorded.text().lines().skip(1).collect();
-    assert_eq!(rows, ["1.0,,,3.5,", "2.0,,,3.5,", "3.0,,,3.5,", "4.0,,,3.5,", "5.0,,,3.5,", "6.0,,,,"]);
+    recorded.take(&tick(5, &[0, 1], &[(0, 3.5)]));
+    (6..=30).for_each(|at| recorded.take(&tick(at, &[0, 1], if at == 22 { &[(0, 4.0)] } else { &[] })));
+    let rows: Vec<&str> = recorded.text().lines().skip(1).filter(|row| row.contains(".0,")).collect();
+    assert_eq!(rows, ["1.0,,,3.5,", "2.0,,,,", "3.0,,,4,"]);
+    assert!(recorded.text().contains("\n1.8,,,3.5,\n"), "{}", recorded.text());
 }
 
 #[test]
