@@ -121,10 +121,8 @@ fn difference(old: &str, new: &str) -> String {
 
 /// A line, or as much of it as a terminal can show.
 fn bounded(line: &str) -> Cow<'_, str> {
-    match line.char_indices().nth(CHARS_MAX) {
-        Some((end, _)) => format!("{}… ({} bytes)", &line[..end], line.len()).into(),
-        None => line.into(),
-    }
+    let cut = |beginning| format!("{beginning}… ({} bytes)", line.len()).into();
+    output::beginning(line, CHARS_MAX).map_or(line.into(), cut)
 }
 
 /// The parts of two texts that are compared, and whether they are all of them: up to some lines behind the first that differs.

@@ -82,3 +82,8 @@ fn seen_json(json: &str) -> String {
     }
     out
 }
+
+/// The first characters of a text that has more.
+pub fn beginning(text: &str, chars: usize) -> Option<&str> {
+    text.char_indices().nth(chars).map(|(end, _)| &text[..end])
+}

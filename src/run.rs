@@ -21,6 +21,8 @@ use std::time::Duration;
 
 /// Reports that are printed; the trace has all of them.
 const REPORTS_TOLD_MAX: usize = 20;
+/// Characters of what was reported that are printed.
+const VALUE_CHARS_MAX: usize = 160;
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
 
@@ -312,6 +314,9 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
         if let (Some(error), Some(from)) = (report.error_m, report.error_from) {
             text.push_str(&format!(", {error:.1} m from {from}"));
         }
+        if !report.told.is_empty() {
+            text.push_str(&format!(": {}", bounded(&report.told)));
+        }
         lines.add(&text);
     }
     match summary.reports_beyond(REPORTS_TOLD_MAX) {
@@ -330,6 +335,11 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
         lines.add(&format!("  picture {}", picture.display()));
     }
     lines
+}
+
+/// A value, or as much of it as is read at a glance; `--json` and the trace have all of it.
+fn bounded(value: &str) -> Cow<'_, str> {
+    output::beginning(value, VALUE_CHARS_MAX).map_or(value.into(), |beginning| format!("{beginning}…").into())
 }
 
 /// The time of the machine that runs the mission.

@@ -351,6 +351,17 @@ fn behaviors_that_are_given_are_known_and_so_are_records_with_texts() {
     insta::assert_snapshot!(failed_beside("given", include_str!("test_verb/given.alb"), 1));
 }
 
+/// `refused` was the outcome of the run beside the end of a question too, and could not be compared with it.
+#[test]
+fn variants_are_meant_beside_a_value_that_can_be_one() {
+    insta::assert_snapshot!(failed_beside("outcomes", include_str!("test_verb/outcomes.alb"), 1));
+}
+
+#[test]
+fn why_a_mission_was_aborted_can_be_asked_for() {
+    insta::assert_snapshot!(failed_beside("reasons", include_str!("test_verb/reasons.alb"), 1));
+}
+
 #[test]
 fn each_row_of_a_table_is_held_to_all_that_is_expected() {
     insta::assert_snapshot!(failed_beside("rows", include_str!("test_verb/rows.alb"), 2));

@@ -280,9 +280,18 @@ impl Script {
 
     /// The inputs that a mission requires, each with the place where it says so.
     pub fn requirements(&self, mission: &str) -> Vec<(&str, source::Span)> {
+        self.requires(mission).map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
+    }
+
+    /// Those of them for whose first sample the mission waits before it begins.
+    pub fn awaited(&self, mission: &str) -> Vec<(&str, source::Span)> {
+        let awaited = self.requires(mission).filter(|require| require.at_first.is_none());
+        awaited.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
+    }
+
+    fn requires(&self, mission: &str) -> impl Iterator<Item = &hir::Require> {
         let parts = self.mission_id(mission).and_then(|id| self.hir.activities[id].mission.as_ref());
-        let requires = parts.into_iter().flat_map(|parts| &parts.requires);
-        requires.map(|require| (self.hir.inputs[require.input].name.as_str(), require.span)).collect()
+        parts.into_iter().flat_map(|parts| &parts.requires)
     }
 
     /// The inputs that a mission records, each with the place where it says so first.

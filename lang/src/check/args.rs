@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::quantity::{is_of_quantity, is_zero};
-use super::{Checker, Def, ParamInfo, globe};
+use super::{Checker, Def, ParamInfo, Setting, globe};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -297,10 +297,7 @@ impl<'t> Checker<'t> {
             }
             Def::Activity(id) => {
                 let name = self.activity_signature(*id).name.clone();
-                self.report(
-                    Diagnostic::error(Code::TimeCall, callee.span, format!("`{name}` takes time: it is no value"))
-                        .help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")),
-                );
+                self.takes_time(&name, callee.span);
                 self.unknown(span)
             }
             other => {
@@ -391,13 +388,26 @@ impl<'t> Checker<'t> {
         }
     }
 
+    fn takes_time(&mut self, name: &str, span: Span) {
+        let finding = Diagnostic::error(Code::TimeCall, span, format!("`{name}` takes time: it is no value"));
+        self.report(finding.help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")));
+    }
+
     fn no_such_function(&mut self, name: &str, span: Span, expected: Option<&Type>) {
+        if self.use_given(name, span).is_some() {
+            return self.takes_time(name, span);
+        }
         let finding = Diagnostic::error(Code::NamesUnknown, span, format!("nothing named `{name}` can be called"));
         let known = BUILTINS.iter().copied().chain(self.callable_names());
         // No area is round, and elsewhere `circle` is driven.
         let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
-        let foreign = round.or_else(|| other_languages::called(name)).or_else(|| other_languages::help(name));
+        let value = round.or_else(|| other_languages::called(name));
+        let takes_time = value.is_none() && self.scope.setting == Setting::Instant;
+        let foreign = value.or_else(|| other_languages::help(name));
         let finding = match (foreign, self.nearest(name, known)) {
+            (Some(help), _) if takes_time => {
+                finding.help(format!("{help}, in the body of a behavior: here everything is instantaneous"))
+            }
             (Some(help), _) => finding.help(help),
             (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
             (None, None) => {

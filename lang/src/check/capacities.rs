@@ -242,6 +242,6 @@ pub(super) fn capacity(ty: &tree::Ty) -> Option<&str> {
             tree::ExprKind::Name(name) => Some(name),
             _ => None,
         },
-        TyKind::Named { .. } | TyKind::Behavior(_) => None,
+        TyKind::Named { .. } | TyKind::Behavior(..) => None,
     }
 }

@@ -197,7 +197,7 @@ impl<'t> Checker<'t> {
             Item::Clause { name, result, of_vehicle, .. } => {
                 let kind = result.as_ref().and_then(|ty| match &ty.kind {
                     TyKind::Named { path, .. } => Some(path.text()),
-                    TyKind::List { .. } | TyKind::Map { .. } | TyKind::Behavior(_) => None,
+                    TyKind::List { .. } | TyKind::Map { .. } | TyKind::Behavior(..) => None,
                 });
                 let (signature, of_vehicle) = (Signature::named(name), *of_vehicle);
                 let (nested, otherwise) = (Vec::new(), Vec::new());

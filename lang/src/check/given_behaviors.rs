@@ -6,7 +6,7 @@ use super::args::Given;
 use super::capacities::{Capacities, Declared, INSTANCES_MAX, NOMINAL, capacity};
 use super::expr::article;
 use super::names::Found;
-use super::{Checker, Def, ParamInfo, Scope, Setting, Signature};
+use super::{BehaviorType, Checker, Def, ParamInfo, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Action, ActivityId, VarKind};
@@ -21,11 +21,17 @@ pub(super) struct GivenBehavior {
     name: String,
     span: Span,
     id: ActivityId,
+    result: Option<Type>,
 }
 
 impl GivenBehavior {
     pub fn id(&self) -> ActivityId {
         self.id
+    }
+
+    /// The result that is read of it, whatever it has.
+    pub fn result(&self) -> Option<&Type> {
+        self.result.as_ref()
     }
 
     pub fn span(&self) -> Span {
@@ -66,7 +72,7 @@ pub(super) struct ActivityTemplates<'t> {
 
 /// Whether a parameter is a behavior.
 pub(super) fn is_behavior(param: &tree::Param) -> bool {
-    matches!(param.ty.kind, TyKind::Behavior(_))
+    matches!(param.ty.kind, TyKind::Behavior(..))
 }
 
 impl<'t> Checker<'t> {
@@ -99,9 +105,9 @@ impl<'t> Checker<'t> {
         params
     }
 
-    /// What is known of a parameter that is a behavior: the types of what it is given.
-    pub(super) fn behavior_param(&mut self, m: usize, param: &tree::Param) -> Option<Vec<Type>> {
-        let TyKind::Behavior(types) = &param.ty.kind else { return None };
+    /// What is known of a parameter that is a behavior.
+    pub(super) fn behavior_param(&mut self, m: usize, param: &tree::Param) -> Option<BehaviorType> {
+        let TyKind::Behavior(types, result) = &param.ty.kind else { return None };
         for (span, what) in [
             param.ty.optional.then_some((param.ty.span, "a behavior cannot be absent")),
             param.default.as_ref().map(|default| (default.span, "a behavior has no default")),
@@ -112,15 +118,16 @@ impl<'t> Checker<'t> {
         {
             self.report(Diagnostic::error(Code::TypesBehavior, span, what).help("leave it out: the call gives one"));
         }
-        Some(types.iter().map(|ty| self.written_type(m, ty)).collect())
+        let takes = types.iter().map(|ty| self.written_type(m, ty)).collect();
+        Some(BehaviorType { takes, result: result.as_ref().map(|ty| self.written_type(m, ty)) })
     }
 
     /// What stands in for behaviors that are given, where a body is checked as it is declared.
     pub(super) fn stand_ins(&mut self, params: &[ParamInfo]) -> Vec<ActivityId> {
         let given: Vec<ParamInfo> = params.iter().filter(|param| param.behavior.is_some()).cloned().collect();
         let stand_in = |param: ParamInfo| {
-            let types = param.behavior.into_iter().flatten().enumerate();
-            let params = types.map(|(i, ty)| ParamInfo {
+            let (takes, result) = param.behavior.map(|of| (of.takes, of.result)).unwrap_or_default();
+            let params = takes.into_iter().enumerate().map(|(i, ty)| ParamInfo {
                 name: format!("argument {}", i + 1),
                 ty,
                 default: None,
@@ -129,7 +136,7 @@ impl<'t> Checker<'t> {
                 span: param.span,
             });
             let params = params.collect();
-            self.made_activity(Signature { name: param.name, span: param.span, params, result: None })
+            self.made_activity(Signature { name: param.name, span: param.span, params, result })
         };
         given.into_iter().map(stand_in).collect()
     }
@@ -142,13 +149,13 @@ impl<'t> Checker<'t> {
     }
 
     /// Makes a parameter that is a behavior known from here on.
-    pub(super) fn declare_behavior(&mut self, name: &tree::Name, id: ActivityId) {
+    pub(super) fn declare_behavior(&mut self, name: &tree::Name, result: Option<Type>, id: ActivityId) {
         if self.local(&name.node).is_some() || self.given_behavior(&name.node).is_some() {
             let message = format!("`{}` is the name of something already", name.node);
             self.report(Diagnostic::error(Code::NamesShadowed, name.span, message).help("choose another name"));
         }
         self.names_used.declare(name, VarKind::Param);
-        self.scope.behaviors.push(GivenBehavior { name: name.node.clone(), span: name.span, id });
+        self.scope.behaviors.push(GivenBehavior { name: name.node.clone(), span: name.span, id, result });
     }
 
     /// The behavior that was given under a name.
@@ -157,11 +164,11 @@ impl<'t> Checker<'t> {
     }
 
     /// The behavior that was given under a name, which is called or handed on.
-    pub(super) fn use_given(&mut self, name: &str, at: Span) -> Option<ActivityId> {
-        let GivenBehavior { span, id, .. } = self.given_behavior(name)?.clone();
-        self.names_used.read(span);
-        self.names_used.refer(at, span);
-        Some(id)
+    pub(super) fn use_given(&mut self, name: &str, at: Span) -> Option<GivenBehavior> {
+        let given = self.given_behavior(name)?.clone();
+        self.names_used.read(given.span);
+        self.names_used.refer(at, given.span);
+        Some(given)
     }
 
     /// A call of a behavior, of which there may be several by what they are given.
@@ -184,8 +191,8 @@ impl<'t> Checker<'t> {
             let place =
                 capacity(&declared.ty).and_then(|name| template.capacities.iter().position(|known| known == name));
             match (&param.behavior, &param.ty, place, written) {
-                (Some(takes), _, _, Some(written)) => {
-                    let found = self.behavior_given(&signature.name, param, takes, written);
+                (Some(of), _, _, Some(written)) => {
+                    let found = self.behavior_given(&signature.name, param, of, written);
                     failed |= found.is_none();
                     behaviors.extend(found);
                 }
@@ -226,11 +233,15 @@ impl<'t> Checker<'t> {
         &mut self,
         what: &str,
         param: &ParamInfo,
-        takes: &[Type],
+        BehaviorType { takes, result }: &BehaviorType,
         written: &tree::Expr,
     ) -> Option<ActivityId> {
+        let handed_on = match &written.kind {
+            tree::ExprKind::Name(name) => self.use_given(name, written.span),
+            _ => None,
+        };
         let named = match &written.kind {
-            tree::ExprKind::Name(name) if let Some(id) = self.use_given(name, written.span) => Some(id),
+            _ if let Some(given) = &handed_on => Some(given.id),
             tree::ExprKind::Name(_) | tree::ExprKind::Member(..) => match self.find(written) {
                 Found::Def(Def::Activity(id)) if !self.overlay_ids.contains(&id) && !self.mission_ids.contains(&id) => {
                     Some(id)
@@ -289,6 +300,15 @@ impl<'t> Checker<'t> {
             more.map(|own| {
                 format!("`{}` of `{}` has no default, and `{}` gives it nothing", own.name, given.name, param.name)
             })
+        });
+        // What is handed on has the result that its own parameter names, and that was looked at where that is declared.
+        let own_result = handed_on.as_ref().map_or(given.result, |given| given.result.clone());
+        let is_told = handed_on.is_some() && !self.scope.is_nominal;
+        let wrong = wrong.or_else(|| {
+            let wants = result.as_ref().filter(|wants| !is_told && own_result.as_ref() != Some(*wants))?;
+            let wants = article(&self.type_name(wants));
+            let has = own_result.as_ref().map_or("no result".to_string(), |has| article(&self.type_name(has)));
+            Some(format!("`{}` has {has}, and of `{}` {wants} is read", given.name, param.name))
         });
         if let Some(message) = wrong {
             let finding = Diagnostic::error(Code::TypesBehavior, written.span, message);
@@ -364,8 +384,9 @@ impl<'t> Checker<'t> {
         let scope = Scope { derived: self.derived(a), capacities, is_nominal, ..Scope::new(m, Setting::Body) };
         let ((mut activity, params), scope) = self.within(scope, |c| {
             c.declare_params(&a.params, &infos);
-            let given = a.params.iter().filter(|param| is_behavior(param)).zip(behaviors);
-            given.for_each(|(param, given)| c.declare_behavior(&param.name, *given));
+            let results = infos.iter().filter_map(|info| info.behavior.as_ref()).map(|of| of.result.clone());
+            let given = a.params.iter().filter(|param| is_behavior(param)).zip(results).zip(behaviors);
+            given.for_each(|((param, result), given)| c.declare_behavior(&param.name, result, *given));
             let params = c.scope.vars.len();
             for known in c.modules[m].known.iter().flatten() {
                 let id = c.declare_hidden(known.name.clone(), known.kind(), known.ty.clone(), span);

@@ -10,6 +10,7 @@ use crate::source::Spanned;
 use crate::syntax::tree::{self, ActivityKind, ClauseKind};
 use crate::types::Type;
 use albacore_program::{Axis, Channel, LIMIT_FRESH_S, LIMIT_PATIENCE_S, TURN_RATE_MIN};
+use albacore_wording::listed;
 
 /// The limits that are no channel's.
 const TURN_RATE: &str = "turn_rate";
@@ -141,6 +142,7 @@ impl Checker<'_> {
     pub(super) fn require(&mut self, require: &tree::Require, mission: &mut Mission) {
         let fresh = self.duration(&require.fresh, "the time after `fresh`");
         let hold_for = require.hold_for.as_ref().map(|e| self.duration(e, "the time after `hold for`"));
+        let at_first = require.at_first.as_ref().filter(|value| self.is_of_one_type(require, value));
         for name in &require.inputs {
             let Some(input) = self.input_named(name, Code::MissionsRequires) else { continue };
             if mission.requires.iter().any(|r| r.input == input) {
@@ -149,13 +151,27 @@ impl Checker<'_> {
                 self.report(finding.help("keep one of them"));
             }
             let ty = self.hir.inputs[input].ty.clone();
-            let at_first = require
-                .at_first
-                .as_ref()
-                .map(|e| self.instant(Temporal::No, |c| c.expr_as(e, &ty, "the value at first")));
+            let at_first = at_first.map(|e| {
+                self.instant(Temporal::No, |c| c.expr_as(e, &ty, &format!("the value at first of `{}`", name.node)))
+            });
             let (fresh, hold_for) = (fresh.clone(), hold_for.clone());
             mission.requires.push(Require { input, span: name.span, fresh, at_first, hold_for });
         }
+    }
+
+    /// Whether a value at first can be that of all inputs of an entry.
+    fn is_of_one_type(&mut self, require: &tree::Require, value: &tree::Expr) -> bool {
+        let known = |name: &&Spanned<String>| self.hir.inputs.iter().find(|input| input.name == name.node);
+        let mut types = require.inputs.iter().filter_map(|name| known(&name)).map(|input| &input.ty);
+        let first = types.next();
+        if types.all(|ty| Some(ty) == first) {
+            return true;
+        }
+        let names: Vec<&str> = require.inputs.iter().map(|name| name.node.as_str()).collect();
+        let message = format!("one value at first for {}, which are of different types", listed(&names));
+        let help = "write an entry for each input that has a value at first, such as `flow fresh 30 s, at first 0 m/s toward north, else abort`";
+        self.report(Diagnostic::error(Code::TypesMismatch, value.span, message).help(help));
+        false
     }
 
     /// Limits of depth and altitude are held by what is known of the depth: a mission that has one requires that input, whether it

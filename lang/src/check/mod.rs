@@ -160,9 +160,18 @@ struct ParamInfo {
     ty: Type,
     default: Option<hir::Expr>,
     range: Option<Interval>,
-    /// Of one that is a behavior the types of what that is called with.
-    behavior: Option<Vec<Type>>,
+    /// What is known of one that is a behavior.
+    behavior: Option<BehaviorType>,
     span: Span,
+}
+
+/// What is known of a behavior that is given.
+#[derive(Clone, Debug)]
+struct BehaviorType {
+    /// The types of what it is called with.
+    takes: Vec<Type>,
+    /// That of the result that is read.
+    result: Option<Type>,
 }
 
 /// What is known of a callable before its body is looked at.

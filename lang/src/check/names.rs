@@ -103,7 +103,10 @@ impl<'t> Checker<'t> {
         } else {
             let homes = self.scope.derived.iter().flat_map(|derived| &derived.homes);
             let mut known = homes.chain([&self.scope.module]).filter_map(|&m| self.lookup(m, &name.node));
-            let hidden = known.find(|def| !def.shares_its_name()).map(|def| finding(def.what()));
+            let hidden = known.find(|def| !def.shares_its_name()).map(|def| match def {
+                Def::Variant(of, _) => finding(&format!("a variant of `{}`", self.types.enums[*of].name)),
+                def => finding(def.what()),
+            });
             self.findings.extend(hidden);
         }
         self.names_used.declare(name, kind);

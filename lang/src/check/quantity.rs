@@ -20,7 +20,7 @@ pub(super) fn names_quantity(ty: &Ty) -> bool {
     match &ty.kind {
         TyKind::List { element, .. } | TyKind::Map { element, .. } => names_quantity(element),
         TyKind::Named { path, factors } => quantity_named(path, factors).is_some(),
-        TyKind::Behavior(_) => false,
+        TyKind::Behavior(..) => false,
     }
 }
 

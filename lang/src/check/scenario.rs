@@ -38,7 +38,7 @@ impl<'t> Checker<'t> {
                     let name = path.text();
                     self.clauses.iter().any(|c| c.kind.as_ref() == Some(&name)).then_some(name)
                 }
-                TyKind::List { .. } | TyKind::Map { .. } | TyKind::Behavior(_) => None,
+                TyKind::List { .. } | TyKind::Map { .. } | TyKind::Behavior(..) => None,
             };
             nested.push(kind);
         }

@@ -65,7 +65,7 @@ impl<'t> Checker<'t> {
             tree::Action::Ask(ask) => self.ask(ask, timed).map(|action| (action, true, None)),
             action => self.action(action, timed.span),
         };
-        let Some((action, ends, result_ty)) = done else {
+        let Some((action, ends, value)) = done else {
             // What is wrong with it has been told: its name is no second mistake.
             if let Some((name, _)) = bind {
                 self.declare(name, VarKind::Let, Type::Unknown);
@@ -87,9 +87,9 @@ impl<'t> Checker<'t> {
         let until = timed.until.as_ref().map(|e| self.with_temporal(Temporal::Yes, |c| c.condition(e)));
         let is_bounded = duration.is_some() || until.is_some() || within.is_some();
         let result = bind.map(|(name, ty)| {
-            let found = match (&action, result_ty) {
-                (Action::Call(..), Some(ty)) if is_bounded => ty.optional(),
-                (Action::Call(..), Some(ty)) => ty,
+            let found = match (&action, &value) {
+                (Action::Call(..), Some(ty)) if is_bounded => ty.clone().optional(),
+                (Action::Call(..), Some(ty)) => ty.clone(),
                 (Action::Override(_), _) => self.override_end(),
                 (Action::Ask(..), _) => self.answer_type(),
                 _ => Type::Bool,
@@ -107,7 +107,7 @@ impl<'t> Checker<'t> {
             let finding = Diagnostic::error(Code::FlowEndless, timed.span, message);
             self.report(finding.help("bound it with `for T`, `until X` or `within T`"));
         }
-        let timed = Timed { action, duration, until, within, at, result };
+        let timed = Timed { action, duration, until, within, at, value, result };
         Some(Stmt { kind: StmtKind::Timed(Box::new(timed)), span })
     }
 
@@ -193,9 +193,10 @@ impl<'t> Checker<'t> {
             tree::Action::Expr(e) => {
                 let id = self.called_activity(e)?;
                 let tree::ExprKind::Call(callee, args) = &e.kind else { return None };
-                if let tree::ExprKind::Name(name) = &callee.kind {
-                    self.use_given(name, callee.span);
-                }
+                let given = match &callee.kind {
+                    tree::ExprKind::Name(name) => self.use_given(name, callee.span),
+                    _ => None,
+                };
                 let signature = self.activity_signature(id).clone();
                 if self.overlay_ids.contains(&id) || self.mission_ids.contains(&id) {
                     let (what, help) = if self.overlay_ids.contains(&id) {
@@ -215,7 +216,8 @@ impl<'t> Checker<'t> {
                     return None;
                 }
                 let (call, result) = self.call_of_activity(id, args, e.span)?;
-                (call, true, result)
+                // Of a behavior that is given only what its parameter says is known, whatever it is.
+                (call, true, given.map_or(result, |given| given.result().cloned()))
             }
         })
     }

@@ -5,7 +5,9 @@ use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, TrueInput, Var, VarKind};
+use crate::hir::{
+    Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, TextPart, TrueInput, Var, VarKind,
+};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -69,6 +71,7 @@ impl<'t> Checker<'t> {
             deepest: var(self, "truth.deepest", Type::Point.optional()),
             time: var(self, "time", Type::Quantity(Dimension::TIME)),
             outcomes: OUTCOMES.map(|name| var(self, name, Type::Bool)),
+            reasons: Vec::new(),
             areas: (0..areas).map(|_| var(self, "an area of the mission", Type::Area)).collect(),
             reports: Vec::new(),
             sources: Vec::new(),
@@ -157,6 +160,24 @@ impl<'t> Checker<'t> {
             test.names.inputs.push((input, id));
         }
         id
+    }
+
+    /// Two sides of which one is `truth.depth` and the other a depth, or of altitudes: both are, so that they can be subtracted and compared.
+    pub(super) fn as_measured(&self, (a, b): (Expr, Expr)) -> (Expr, Expr) {
+        let true_type = |e: &Expr| {
+            let (ExprKind::Var(id), Some(test)) = (&e.kind, &self.test) else { return None };
+            match test.names.inputs.iter().find(|(_, known)| known == id)?.0 {
+                TrueInput::Depth => Some(Type::Depth),
+                TrueInput::Altitude => Some(Type::Altitude),
+                _ => None,
+            }
+        };
+        let measured = |e: Expr, beside: &Type| match true_type(&e).filter(|ty| ty == beside.present()) {
+            Some(ty) => Expr { ty, ..e },
+            None => e,
+        };
+        let types = (a.ty.clone(), b.ty.clone());
+        (measured(a, &types.1), measured(b, &types.0))
     }
 
     /// Says that there is no such member of `truth`.
@@ -303,6 +324,9 @@ impl<'t> Checker<'t> {
     /// expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
+        if name == "aborted" {
+            return Some(self.aborted_for(args, span));
+        }
         if !QUESTIONS.contains(&name) {
             return None;
         }
@@ -311,6 +335,13 @@ impl<'t> Checker<'t> {
             let Some([text, label]) = self.positional::<2>(name, args, span) else { return Some(self.unknown(span)) };
             let (what, label_text) = (self.plain_text(&text), self.plain_text(&label));
             return Some(self.reported_value(&what, (&label_text, label.span), name == "reported", span));
+        }
+        if asks_for_value && args.len() > 2 {
+            let message =
+                format!("`{name}` takes the name of a report and a label of it, not {} arguments", args.len());
+            let finding = Diagnostic::error(Code::ArgsMany, span, message);
+            self.report(finding.help(format!("write `{name}(\"NAME\")` or `{name}(\"NAME\", \"LABEL\")`")));
+            return Some(self.unknown(span));
         }
         let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
         let what = self.plain_text(&text);
@@ -343,6 +374,45 @@ impl<'t> Checker<'t> {
         };
         let var = self.report_var(&what, part, text.span);
         Some(self.taken_for_granted(var, without, span))
+    }
+
+    /// `aborted("far outside")`: whether that aborted the mission. What the machine says by itself begins with the name of an input.
+    fn aborted_for(&mut self, args: &[tree::Arg], span: Span) -> Expr {
+        let Some([text]) = self.positional::<1>("aborted", args, span) else { return self.unknown(span) };
+        let (why, Some(mission)) = (self.plain_text(&text), self.test.as_ref().map(|test| test.mission)) else {
+            return self.unknown(span);
+        };
+        // That it is no text has been told.
+        if why.is_empty() {
+            return self.unknown(span);
+        }
+        let reasons = self.hir.abort_reasons(mission);
+        let is_plain = |parts: &[TextPart]| parts.iter().all(|part| matches!(part, TextPart::Literal(_)));
+        let plain = |parts: &[TextPart]| {
+            let literal =
+                |part: &TextPart| if let TextPart::Literal(text) = part { text.clone() } else { String::new() };
+            parts.iter().map(literal).collect::<String>()
+        };
+        let all_plain = reasons.iter().all(|parts| is_plain(parts));
+        let known: BTreeSet<String> = reasons.iter().map(|parts| plain(parts)).collect();
+        if all_plain && !known.contains(&why) && !why.starts_with('`') {
+            let finding =
+                Diagnostic::error(Code::TestsReport, text.span, format!("nothing aborts the mission with \"{why}\""));
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            self.report(match self.nearest(&why, known.iter().copied()) {
+                Some(near) => finding.help(format!("did you mean \"{near}\"?")),
+                None if known.is_empty() => {
+                    finding.help("no `abort \"WHY\"` stands in it; `expect aborted` asks for no reason")
+                }
+                None => finding.help(format!("it may be aborted with \"{}\"", known.join("\", \""))),
+            });
+            return self.unknown(span);
+        }
+        let id = self.declare_hidden(format!("aborted \"{why}\""), VarKind::Signal, Type::Bool, span);
+        if let Some(test) = &mut self.test {
+            test.names.reasons.push((why, id));
+        }
+        self.variable(id, span)
     }
 
     /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in the first report of a name or in the last.

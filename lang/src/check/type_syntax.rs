@@ -59,6 +59,8 @@ impl<'t> Checker<'t> {
                 finding.help("a position is its latitude, a blank and its longitude: `36.18°N 75.74°W`")
             } else if word.node == "rpm" {
                 finding.help("turns are counted in `Hz`, turns a second: 60 of them a minute are `1 Hz`")
+            } else if matches!(word.node.as_str(), "K" | "kelvin" | "degF") {
+                finding.help("temperatures are in `degC`: 0 degC is 273.15 K and 32 degF")
             } else if word.node == "M" {
                 finding.help("metres are `m`, nautical miles `nmi`")
             } else if matches!(word.node.as_str(), "bar" | "dbar" | "mbar" | "Pa" | "kPa") {
@@ -102,7 +104,7 @@ impl<'t> Checker<'t> {
                 }
             }
             TyKind::Named { path, factors } => self.named_type(m, path, factors),
-            TyKind::Behavior(_) => {
+            TyKind::Behavior(..) => {
                 let message = "a behavior is no value";
                 let finding = Diagnostic::error(Code::TypesBehavior, ty.span, message);
                 self.report(
@@ -241,7 +243,7 @@ fn nearest_unit<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         "kt" | "kts" => "kn",
         "percent" => "%",
         "nm" | "NM" | "nmile" | "nmiles" => "nmi",
-        "°C" | "℃" | "celsius" | "Celsius" | "C" | "K" | "kelvin" | "degF" => "degC",
+        "°C" | "℃" | "celsius" | "Celsius" | "C" => "degC",
         "ppt" | "‰" | "PSU" | "pss" | "PSS" => "psu",
         "mps" => return Some("m/s"),
         "kmh" | "kph" | "kmph" => return Some("km/h"),

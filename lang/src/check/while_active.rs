@@ -119,7 +119,8 @@ impl Checker<'_> {
     /// While a behavior is active the mission has not ended: what asks how it has, asks nothing.
     pub(super) fn asks_no_ending(&mut self, holds: &Expr) {
         let Some(test) = &self.test else { return };
-        let outcomes = test.names.outcomes;
+        let reasons = test.names.reasons.iter().map(|(_, id)| *id);
+        let outcomes: Vec<usize> = test.names.outcomes.into_iter().chain(reasons).collect();
         let mut asked = None;
         holds.visit(&mut |e| {
             if matches!(e.kind, ExprKind::Var(id) if outcomes.contains(&id)) {

@@ -415,6 +415,8 @@ pub struct Timed {
     pub within: Option<Expr>,
     /// `at depth 3 m`.
     pub at: Vec<(Channel, Expr)>,
+    /// The type of a call's result, where that is its outcome: of a behavior that is given as one without a result it is not.
+    pub value: Option<Type>,
     /// Where its outcome goes: whether it ended by itself, or a call's result.
     pub result: Option<VarId>,
 }

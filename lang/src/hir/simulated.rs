@@ -98,6 +98,8 @@ pub struct TestNames<T> {
     pub time: T,
     /// How the mission ended, for each of [`OUTCOMES`].
     pub outcomes: [T; OUTCOMES.len()],
+    /// Whether it was aborted and why: the reasons that are asked for.
+    pub reasons: Vec<(String, T)>,
     /// The mission's areas, the operating area first.
     pub areas: Vec<T>,
     /// What was reported, by name.
@@ -227,6 +229,7 @@ impl<T: Copy> TestNames<T> {
             deepest: f(self.deepest),
             time: f(self.time),
             outcomes: self.outcomes.map(&f),
+            reasons: self.reasons.iter().map(|(why, x)| (why.clone(), f(*x))).collect(),
             areas: self.areas.iter().map(|x| f(*x)).collect(),
             reports: self.reports.iter().map(report).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),

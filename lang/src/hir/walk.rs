@@ -47,6 +47,28 @@ impl Hir {
         asks
     }
 
+    /// Why a mission and all that it calls may abort it, as far as they say so.
+    pub fn abort_reasons(&self, mission: ActivityId) -> Vec<&[TextPart]> {
+        let mut reasons = Vec::new();
+        for activity in self.called_from(mission).into_iter().map(|id| &self.activities[id]) {
+            reasons.extend(activity.aborts.iter().map(|(why, _)| why.as_slice()));
+            if let Body::Table { rules, .. } = &activity.body {
+                let targets = rules.iter().map(|rule| &rule.target);
+                reasons.extend(
+                    targets.filter_map(|to| if let Target::Abort(why) = to { Some(why.as_slice()) } else { None }),
+                );
+            }
+            for block in activity.blocks() {
+                block.each(&mut |stmt| {
+                    if let StmtKind::Abort(why) = &stmt.kind {
+                        reasons.push(why);
+                    }
+                });
+            }
+        }
+        reasons
+    }
+
     /// Calls `f` on the name and the labelled values of every report of a mission and of all that it calls.
     pub fn each_report<'h>(&'h self, mission: ActivityId, f: &mut dyn FnMut(&'h str, &'h [(String, Expr)])) {
         for id in self.called_from(mission) {

@@ -248,10 +248,6 @@ impl<'a> Lowering<'a> {
         self.emit(Compute::jump(wait));
 
         // Its own end, then `for` and `until`, then `within`: each leaves the outcome where `let` wants it.
-        let has_value = match &timed.action {
-            Action::Call(id, _) => self.hir.activities[*id].result.clone(),
-            _ => None,
-        };
         let cut = timed.duration.is_some() || timed.until.is_some() || timed.within.is_some();
         self.land(done.remove(0));
         if let (Some(to), Running::Ask { answer, .. }) = (result, &action) {
@@ -260,14 +256,14 @@ impl<'a> Lowering<'a> {
         if let Some(to) = result
             && !matches!(action, Running::Override { .. } | Running::Ask { .. })
         {
-            self.outcome_of_end(&action, has_value.as_ref(), cut, to);
+            self.outcome_of_end(&action, timed.value.as_ref(), cut, to);
         }
         let mut ends = Vec::new();
         for (jumps, cause) in [(cut_normally, Cause::Until), (cut_off.into_iter().collect(), Cause::TimedOut)] {
             if !jumps.is_empty() {
                 ends.push(self.emit(Compute::jump(0)));
                 self.land_all(jumps);
-                self.cut(&action, cause, result, has_value.as_ref());
+                self.cut(&action, cause, result, timed.value.as_ref());
             }
         }
         self.land_all(ends);

@@ -227,6 +227,13 @@ pub(super) fn is_inclusive(range_op: Node) -> bool {
     range_op.text() == ".."
 }
 
+fn behavior_ty(b: &mut Builder, node: Node) -> TyKind {
+    let is_result = node.inner().any(|part| part.rule() == Rule::arrow);
+    let mut types: Vec<Ty> = node.parts().map(|part| ty(b, part)).collect();
+    let result = if is_result { types.pop() } else { None };
+    TyKind::Behavior(types, result.map(Box::new))
+}
+
 pub(super) fn ty(b: &mut Builder, node: Node) -> Ty {
     let span = node.span();
     let mut kind = TyKind::Named { path: Path { parts: Vec::new(), span }, factors: Vec::new() };
@@ -236,7 +243,7 @@ pub(super) fn ty(b: &mut Builder, node: Node) -> Ty {
             Rule::maybe => optional = true,
             Rule::list_ty => kind = list_ty(b, part).unwrap_or(kind),
             Rule::map_ty => kind = map_ty(b, part).unwrap_or(kind),
-            Rule::behavior_ty => kind = TyKind::Behavior(part.parts().map(|p| ty(b, p)).collect()),
+            Rule::behavior_ty => kind = behavior_ty(b, part),
             _ => kind = name_ty(part),
         }
     }

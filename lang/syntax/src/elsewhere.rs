@@ -406,6 +406,10 @@ fn head(before: &str, rest: &str, expected: &str) -> Option<Habit> {
         let message = Some("a test has a name, which is a text".to_string());
         return Some(Habit { message, help: format!("write `test \"{}\" {{`", line_end(rest)) });
     }
+    if first == "expect" && word(rest) == "for" && rest.contains('%') {
+        let message = Some("the share of the runs stands before what is expected".to_string());
+        return Some(Habit { message, help: "write `expect in 90 % of runs: time < 5 min`".to_string() });
+    }
     if first == "expect" && word(rest) == "for" {
         let message = Some("an expectation has no `for`".to_string());
         let help = "let the mission see it: `signal long = X for 5 s`, `report \"long\": …` on it, and expect what was reported";

@@ -141,8 +141,8 @@ pub enum TyKind {
         /// Further names with their powers.
         factors: Vec<(Name, f64)>,
     },
-    /// `behavior(Point)`, with the types of what it is called with.
-    Behavior(Vec<Ty>),
+    /// `behavior(Point) -> Bool`, with the types of what it is called with and of the result that is read.
+    Behavior(Vec<Ty>, Option<Box<Ty>>),
     /// `Map[Ratio; 900]`.
     Map {
         /// What a cell holds.

@@ -29,6 +29,7 @@ pub(crate) fn findings(script: &Script, mission: &str, held: &Held) -> Vec<Diagn
     let mut findings = unsensed(script, mission, name, world);
     findings.extend(unanswered(script, mission, name, world));
     findings.extend(unmeasured(script, mission, name, world));
+    findings.extend(awaited(script, mission, name, world));
     match elsewhere(script, mission, held) {
         Some(finding) => findings.push(finding),
         None => {
@@ -160,6 +161,27 @@ fn unmeasured(script: &Script, mission: &str, scenario: &str, world: &Scenario) 
     );
     let help = format!("let `{scenario}` have a profiler for such a flow: `adcp(fastest: {:.1} m/s)`", 2.0 * speed);
     (speed >= fastest).then(|| Diagnostic::warning(Code::ScenariosWorld, span, message).help(help))
+}
+
+/// What the mission waits for before it begins, and the vehicle does not tell where it waits.
+fn awaited(script: &Script, mission: &str, scenario: &str, world: &Scenario) -> Vec<Diagnostic> {
+    let told = world.measurements();
+    let finding = |(input, span): (&str, Span)| {
+        let why = world.silence_at_start(input).filter(|_| told.iter().any(|measurement| measurement.name == input))?;
+        let message = format!(
+            "`{mission}` begins with the first sample of `{input}`, and in `{scenario}` none comes before: {why}"
+        );
+        let help = match input {
+            senses::FLOW => {
+                "give it a value until then: `flow fresh 30 s, at first 0 m/s toward north, else abort`, on a line of its own".to_string()
+            }
+            _ => format!(
+                "give it a value until then, `{input} fresh T, at first VALUE, else …`, or let the vehicle start where its sensor tells it"
+            ),
+        };
+        Some(Diagnostic::warning(Code::ScenariosWorld, span, message).help(help))
+    };
+    script.awaited(mission).into_iter().filter_map(finding).collect()
 }
 
 /// Areas that reach no further beyond what is known than this, m, are meant to be its own.

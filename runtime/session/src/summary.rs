@@ -112,6 +112,9 @@ pub struct Report {
     /// Which of the program's reporting statements it is of.
     #[serde(skip)]
     pub site: u32,
+    /// What was reported and beside it, in words, but for the place of its own.
+    #[serde(skip)]
+    pub told: String,
     /// What that distance is from, in words.
     #[serde(skip)]
     pub error_from: Option<&'static str>,

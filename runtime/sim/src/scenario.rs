@@ -9,7 +9,7 @@ pub use setting::Setting;
 
 use crate::craft::fault::{self, Fault};
 use crate::craft::payload::{self, Payload};
-use crate::craft::sensors::InstrumentSetup;
+use crate::craft::sensors::{AtRest, InstrumentSetup};
 use crate::craft::setup::{self, OwnMission, VehicleSetup};
 use crate::world::{self, Environment};
 use albacore_front_seat::Handover;
@@ -52,6 +52,21 @@ impl Scenario {
         let limits = self.limits.clone().unwrap_or_default();
         let hull = self.vehicle.hull.speed_max();
         Limits { speed: Some(limits.speed.map_or(hull, |speed| speed.min(hull))), ..limits }
+    }
+
+    /// Why its vehicle tells no sample of a measurement before it is driven; `None` where nothing keeps it from that, or it swims a
+    /// mission of its own.
+    pub fn silence_at_start(&self, measurement: &str) -> Option<String> {
+        if self.own_mission.is_some() {
+            return None;
+        }
+        let (environment, vehicle) = (&self.environment, &self.vehicle);
+        let flow = &environment.flow;
+        let upper = flow.upper.as_ref().map_or(0.0, |upper| upper.mean.length());
+        let is_even = environment.recording.is_none() && flow.meander.is_none();
+        let drift = if is_even { flow.speed().max(upper) } else { f64::INFINITY };
+        let altitude = environment.bottom.depth_at(vehicle.start) - vehicle.depth;
+        self.instruments.silence(measurement, &AtRest { depth: vehicle.depth, altitude, drift })
     }
 
     /// Whether there is any chemical to be sensed.

@@ -197,7 +197,7 @@ impl<'p> Underway<'p> {
             return Value::Parts(vec![Value::Number(end.number()), value]);
         }
         let Doing::Call(called) = &self.doing else { return Value::truth(!matches!(end, End::Cut(Cause::TimedOut))) };
-        let Some(ty) = &called.activity.result else {
+        let Some(ty) = &self.timed.value else {
             return Value::truth(!matches!(end, End::Cut(Cause::TimedOut)));
         };
         let can_be_cut = self.duration.is_some() || self.within.is_some() || self.timed.until.is_some();

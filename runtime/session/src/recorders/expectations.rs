@@ -172,6 +172,10 @@ impl<'t> Expectations<'t> {
         for (name, slot) in OUTCOMES.iter().zip(slots.outcomes) {
             evaluation.set(slot, &[f64::from(u8::from(outcome == Some(name)))]);
         }
+        for (why, slot) in &slots.reasons {
+            let is_why = outcome == Some(Outcome::Aborted.name()) && results.reason() == why;
+            evaluation.set(*slot, &[f64::from(u8::from(is_why))]);
+        }
         evaluation.set(slots.nearest_source, &if_any(nearest));
         for (name, slot) in &slots.sources {
             evaluation.set(*slot, &if_any(results.source(name)));

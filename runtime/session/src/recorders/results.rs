@@ -6,6 +6,7 @@ use crate::reported::{Reader, corners, fields};
 use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point};
 use albacore_machine::{Event, Outcome};
+use albacore_program::{Shape, number};
 use albacore_trace::{Cells, Ending, Release, Step, TickRecord};
 use albacore_vehicle::seconds;
 use std::collections::{BTreeMap, BTreeSet};
@@ -255,6 +256,13 @@ impl Results {
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let sought = place.and_then(|p| self.sought(p));
         let values = fields(site, words).map(|(label, shape, words)| (label.to_string(), reader.json(shape, words)));
+        let is_own_place = |label: &str, shape: &Shape| label.is_empty() && *shape == Shape::Point;
+        let told = fields(site, words).filter(|(label, shape, _)| !is_own_place(label, shape));
+        let told = told.map(|(label, shape, words)| match (label, number::value_with(&program.texts, shape, words)) {
+            ("", value) => value,
+            (label, value) => format!("{label} = {value}"),
+        });
+        let told = told.collect::<Vec<_>>().join(", ");
         let mut values: BTreeMap<_, _> = values.collect();
         self.reports.listed.push(Report {
             name: site.name.clone(),
@@ -267,6 +275,7 @@ impl Results {
             longitude_deg: globe.map(|g| g.longitude_deg()),
             error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
             error_from: sought.map(|(_, what)| what),
+            told,
             value: values.remove("").unwrap_or_default(),
             labelled: values,
         });

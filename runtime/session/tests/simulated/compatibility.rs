@@ -15,23 +15,23 @@ fn script() -> Script {
     with depth 3 m, speed 2 m/s
     goto op.corner(toward: flow.toward) until temperature > 20 degC
 }
-scenario calm_bay { vehicle(kinematic, start: point(north: 0 m, east: 0 m)); ctd() }
+scenario calm_bay { vehicle(kinematic, start: point(north: 0 m, east: 0 m)); ctd(above: 0 m) }
 scenario race {
     flow(45 cm/s toward 90 deg)
     vehicle(kinematic, start: point(north: 0 m, east: 0 m))
-    ctd()
+    ctd(above: 0 m)
 }
 scenario layered {
     flow(10 cm/s toward 90 deg)
     upper_layer(60 cm/s toward 90 deg, above: 10 m)
     vehicle(kinematic, start: point(north: 0 m, east: 0 m))
-    ctd()
+    ctd(above: 0 m)
 }
 scenario known_race {
     flow(45 cm/s toward 90 deg)
     vehicle(kinematic, start: point(north: 0 m, east: 0 m))
     adcp(fastest: 1 m/s)
-    ctd()
+    ctd(above: 0 m)
 }
 scenario bare { vehicle(kinematic, start: point(north: 0 m, east: 0 m)) }
 ";

@@ -148,8 +148,25 @@ clauses! {
 impl InstrumentSetup {
     /// What a vehicle tells that has them.
     pub fn measurements(&self) -> Vec<Measurement> {
-        let is_played = |name: &str| self.played.iter().any(|played| played.name() == name);
-        measurements::delivered(|row| row.instrument.is_none_or(|clause| self.has(clause)) || is_played(row.name))
+        measurements::delivered(|row| row.instrument.is_none_or(|clause| self.has(clause)) || self.is_played(row.name))
+    }
+
+    /// Why a vehicle that lies still tells no sample of a measurement; `None` where nothing keeps it from that.
+    pub(crate) fn silence(&self, measurement: &str, lies: &AtRest) -> Option<String> {
+        if self.is_played(measurement) {
+            return None;
+        }
+        let at = measurements::ALL.iter().position(|row| row.name == measurement)?;
+        match u16::try_from(at).ok()? {
+            measurements::FLOW => self.adcp.silence(lies),
+            measurements::ALTITUDE | measurements::WATER_DEPTH => self.sounder.silence(lies),
+            measurements::TEMPERATURE | measurements::SALINITY => self.ctd.as_ref()?.silence(lies),
+            _ => None,
+        }
+    }
+
+    fn is_played(&self, measurement: &str) -> bool {
+        self.played.iter().any(|played| played.name() == measurement)
     }
 
     /// What of them cannot be.
@@ -159,6 +176,16 @@ impl InstrumentSetup {
         sounder::check(self, issues);
         played::check(self, issues);
     }
+}
+
+/// Where a vehicle lies that nobody drives.
+pub(crate) struct AtRest {
+    /// Below the surface, m.
+    pub depth: f64,
+    /// Above the bottom, m.
+    pub altitude: f64,
+    /// It drifts no faster than this, m/s.
+    pub drift: f64,
 }
 
 /// The instruments of a vehicle in a run.

@@ -1,8 +1,9 @@
 //! The acoustic Doppler current profiler, which looks up and down by turns, and the flow estimate fed by it.
 
 use super::delay::Delay;
-use super::{Instrument, Surroundings};
+use super::{AtRest, Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
+use crate::scenario::number;
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates};
 use albacore_vehicle::Snapshot;
@@ -49,6 +50,25 @@ impl Default for Adcp {
             delay: 0.0,
             gates,
         }
+    }
+}
+
+impl Adcp {
+    /// Why a vehicle at rest has no flow.
+    pub(super) fn silence(&self, lies: &AtRest) -> Option<String> {
+        let gates = &self.gates;
+        // A flow that is taken for an error carries no sample either.
+        let is_slow = lies.drift.min(gates.fastest) <= gates.over_ground;
+        let is_out = is_slow || lies.depth <= gates.depth || lies.altitude <= gates.altitude;
+        is_out.then(|| {
+            format!(
+                "its profiler measures where it swims: faster than {} m/s over ground, deeper than {} m and more than {} m above \
+                 the bottom",
+                number(gates.over_ground),
+                number(gates.depth),
+                number(gates.altitude)
+            )
+        })
     }
 }
 

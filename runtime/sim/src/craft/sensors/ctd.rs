@@ -1,8 +1,9 @@
 //! The CTD: the temperature of the water about the vehicle, and its salinity.
 
 use super::delay::Delay;
-use super::{Instrument, Surroundings};
+use super::{AtRest, Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
+use crate::scenario::number;
 use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use albacore_vehicle::rate::is_due;
@@ -39,6 +40,13 @@ impl Default for Ctd {
             above: 0.2,
             delay: 0.0,
         }
+    }
+}
+
+impl Ctd {
+    /// Why a vehicle at rest has no sample of it.
+    pub(super) fn silence(&self, lies: &AtRest) -> Option<String> {
+        (lies.depth < self.above).then(|| format!("its CTD is dry above {} m, where it starts", number(self.above)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The echo sounder: how far the bottom is, where it hears an echo.
 
 use super::delay::Delay;
-use super::{EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
+use super::{AtRest, EVERY_TICK, Instrument, InstrumentSetup, Surroundings};
 use crate::noise::{Noise, Stream};
 use crate::scenario::{ScenarioIssues, number};
 use albacore_vehicle::measurements::{ALTITUDE, DEPTH, WATER_DEPTH};
@@ -35,6 +35,29 @@ impl Default for Sounder {
     }
 }
 
+impl Sounder {
+    fn hears(&self, altitude: f64) -> bool {
+        altitude >= self.nearest && self.farthest.is_none_or(|farthest| altitude <= farthest)
+    }
+
+    /// Why a vehicle at rest has no altitude.
+    pub(super) fn silence(&self, lies: &AtRest) -> Option<String> {
+        let away = number(lies.altitude);
+        (!self.hears(lies.altitude)).then(|| match self.farthest.filter(|&farthest| lies.altitude > farthest) {
+            Some(farthest) => {
+                format!(
+                    "the bottom is {away} m away where it starts, and its sounder hears none farther than {} m",
+                    number(farthest)
+                )
+            }
+            None => format!(
+                "the bottom is {away} m away where it starts, and its sounder hears none nearer than {} m",
+                number(self.nearest)
+            ),
+        })
+    }
+}
+
 /// A sounder.
 #[derive(Clone, Debug)]
 pub struct EchoSounder {
@@ -60,8 +83,7 @@ impl EchoSounder {
     fn reading(&self, tick: u64, altitude: f64) -> Option<f64> {
         let s = &self.settings;
         let is_lost = s.dropouts > 0.0 && self.dropouts.uniform(tick) < s.dropouts;
-        let is_near = altitude >= s.nearest && s.farthest.is_none_or(|farthest| altitude <= farthest);
-        if is_lost || !is_near || !is_due(s.rate, tick) {
+        if is_lost || !s.hears(altitude) || !is_due(s.rate, tick) {
             return None;
         }
         let noise = if s.noise > 0.0 { s.noise * self.noise.gaussian(tick) } else { 0.0 };
