@@ -130,11 +130,6 @@ fn read(path: &Path, bytes_max: u64) -> io::Result<Vec<u8>> {
     File::open(path)?.take(bytes_max).read_to_end(&mut there).map(|_| there)
 }
 
-/// What was made, where nothing is yet.
-pub fn make(path: &Path, made: &Made) -> io::Result<()> {
-    keep(path, made.text().as_bytes())
-}
-
 /// A whole file, where nothing is yet.
 pub fn keep(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = folder_of(path);

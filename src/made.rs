@@ -1,4 +1,4 @@
-//! What the program makes of scripts and runs: a text that ends with a mark, in which a digest of all before it stands. Such a file
+//! What the program makes of scripts: a text that ends with a mark, in which a digest of all before it stands. Such a file
 //! may be made again in its place while it is as it was made; one that somebody else wrote, or edited, has no mark that fits.
 
 use albacore_session::Digest;
@@ -12,8 +12,6 @@ pub enum Comment {
     Slashes,
     /// Mermaid.
     Percents,
-    /// A trace.
-    Line,
 }
 
 /// A text with its mark.
@@ -47,7 +45,7 @@ pub fn is_as_made(bytes: &[u8]) -> bool {
 }
 
 impl Comment {
-    const ALL: [Comment; 4] = [Comment::Markup, Comment::Slashes, Comment::Percents, Comment::Line];
+    const ALL: [Comment; 3] = [Comment::Markup, Comment::Slashes, Comment::Percents];
 
     /// The mark of a text: always of the same length.
     fn mark(self, text: &[u8]) -> String {
@@ -57,7 +55,6 @@ impl Comment {
             Comment::Markup => ("<!-- ", " -->"),
             Comment::Slashes => ("// ", ""),
             Comment::Percents => ("%% ", ""),
-            Comment::Line => ("", ""),
         };
         format!("{before}Made by Albacore: {digest}{after}\n")
     }

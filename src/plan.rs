@@ -50,7 +50,14 @@ pub struct ScriptDigest {
 
 /// The scripts of a plan, the mission's own first. The texts of `--set` are read as scripts too, and are none of them.
 pub fn scripts(plan: &Plan) -> Vec<ScriptDigest> {
-    plan.sources.iter().filter(|source| !is_option(source)).map(ScriptDigest::of).collect()
+    let mut scripts: Vec<ScriptDigest> = Vec::new();
+    for script in plan.sources.iter().filter(|source| !is_option(source)).map(ScriptDigest::of) {
+        // A file may be played for several inputs.
+        if !scripts.contains(&script) {
+            scripts.push(script);
+        }
+    }
+    scripts
 }
 
 /// Whether a source is the text of a `--set`. A file of data may be called like one.

@@ -7,10 +7,9 @@ mod watch;
 use crate::clock::Utc;
 use crate::disk;
 use crate::exit::Exit;
-use crate::made::{Comment, Made};
 use crate::message;
 use crate::synced::WRITTEN_INTO;
-use albacore_session::{Form, PICTURE, Run, RunFile, Summary, TRACE};
+use albacore_session::{PICTURE, Run, Summary, TRACE};
 use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
 pub use record::{Record, RunRequest};
@@ -150,20 +149,18 @@ impl RunFolder {
         let (path, room) = (folder.path.clone(), folder.record.room());
         record.ends(summary);
         run.files().for_each(|file| record.loses(file.name, "not written yet"));
-        // No mark can stand in a table: it stands here instead, before there is one.
-        let table = run.files().find(|file| file.form == Form::Table).map(|file| run.file(file));
-        if let Some(table) = &table {
-            record.recorded(table);
-        }
+        // What they hold is told before there are any: by that alone they are known to be this run's.
+        let texts: Vec<_> = run.files().map(|file| (file.name, run.file(file))).collect();
+        texts.iter().for_each(|(name, text)| record.holds(name, text.as_bytes()));
         let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
         let (is_there, mut troubles) = (folder.is_there(), Vec::new());
         if is_there {
-            for file in run.files() {
-                match keep(&path.join(file.name), file, run, table.as_deref()) {
-                    Ok(()) => record.has(file.name),
+            for (name, text) in texts {
+                match disk::keep(&path.join(name), text.as_bytes()) {
+                    Ok(()) => record.has(name),
                     Err(error) => {
-                        record.loses(file.name, &error);
-                        troubles.push((disk::not_written(&path.join(file.name), &error), None));
+                        record.loses(name, &error);
+                        troubles.push((disk::not_written(&path.join(name), &error), None));
                     }
                 }
             }
@@ -176,9 +173,12 @@ impl RunFolder {
         // One that the disk has cut may have been written into besides.
         if is_there && !record.has_lost_by(JOURNAL, WRITTEN_INTO) {
             let journal = path.join(JOURNAL);
-            let (why, what, help) = match folder.is_journal_whole() {
-                Ok(true) => (None, String::new(), ""),
-                Ok(false) => (
+            let (why, what, help) = match folder.whole_journal() {
+                Ok(Some(bytes)) => {
+                    record.holds(JOURNAL, &bytes);
+                    (None, String::new(), "")
+                }
+                Ok(None) => (
                     Some(WRITTEN_INTO.to_string()),
                     format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", journal.display()),
                     "it is left as it is; what was overwritten is lost",
@@ -233,16 +233,6 @@ impl RunFolder {
     pub fn has_failed(&self) -> bool {
         self.failed
     }
-}
-
-/// Writes one of the files of a run, where nothing is yet.
-fn keep(path: &Path, file: &RunFile, run: &Run, table: Option<&str>) -> io::Result<()> {
-    let comment = match (file.form, table) {
-        (Form::Table, Some(table)) => return disk::keep(path, table.as_bytes()),
-        (Form::Markup, _) => Comment::Markup,
-        (Form::Lines | Form::Table, _) => Comment::Line,
-    };
-    disk::make(path, &Made::new(run.file(file), comment))
 }
 
 /// What became of a file that has the name of a run's file no more.

@@ -36,7 +36,7 @@ fn a_run_leaves_what_it_recorded_and_says_how_much() {
     assert_eq!(table.lines().next(), Some(head));
     let record: Value = serde_json::from_str(&std::fs::read_to_string(out.join("run.json")).unwrap()).unwrap();
     assert!(
-        record["recorded"].is_string() && record["lost"].as_object().is_some_and(|lost| lost.is_empty()),
+        record["files"]["recorded.csv"].is_string() && record["lost"].as_object().is_some_and(|lost| lost.is_empty()),
         "{record}"
     );
     // Nothing in it is a formula to a spreadsheet, and no row is longer than its head.

@@ -212,9 +212,47 @@ fn who_replaces_a_run_removes_nothing_that_no_run_made() {
         std::fs::write(out.join(name), made).unwrap();
     }
     // What a run that was killed leaves is its own.
-    let journal = std::fs::read(out.join("journal")).unwrap();
-    std::fs::write(out.join("journal"), &journal[..journal.len() / 2]).unwrap();
-    assert_eq!(ran(&project, "box.alb --out edited --replace").0, Some(0));
+    end(long_run(&project, "killed"));
+    let journal = std::fs::read(project.join("killed/journal")).unwrap();
+    std::fs::write(project.join("killed/journal"), &journal[..journal.len() / 2]).unwrap();
+    assert_eq!(ran(&project, "box.alb --out killed --replace").0, Some(0));
+}
+
+/// A file of another run in the folder is not this run's, whatever its mark.
+#[test]
+fn who_replaces_a_run_removes_no_file_of_another() {
+    let project = project("another");
+    for (seed, out) in [(3, "a"), (4, "b")] {
+        assert_eq!(ran(&project, &format!("box.alb --seed {seed} --out {out}")).0, Some(0));
+    }
+    for name in ["trace.txt", "run.svg", "journal"] {
+        let (theirs, ours) = (project.join("a").join(name), project.join("b").join(name));
+        let own = std::fs::read(&ours).unwrap();
+        std::fs::copy(&theirs, &ours).unwrap();
+        let (code, _, said) = ran(&project, "box.alb --seed 5 --out b --replace");
+        assert_eq!(code, Some(2), "{name}: {said}");
+        assert!(said.contains(&format!("`b/{name}` is there already, and is not as a run left it")), "{said}");
+        assert_eq!(std::fs::read(&ours).unwrap(), std::fs::read(&theirs).unwrap());
+        std::fs::write(&ours, own).unwrap();
+    }
+    assert_eq!(ran(&project, "box.alb --seed 5 --out b --replace").0, Some(0));
+}
+
+/// What a run left is its own wherever it is moved.
+#[test]
+fn no_diagram_takes_the_place_of_what_a_run_left() {
+    let project = project("moved");
+    assert_eq!(ran(&project, "box.alb --out a").0, Some(0));
+    for name in ["run.svg", "trace.txt"] {
+        let moved = project.join(format!("moved-{name}"));
+        std::fs::rename(project.join("a").join(name), &moved).unwrap();
+        let before = std::fs::read(&moved).unwrap();
+        let mut graph = Command::new(env!("CARGO_BIN_EXE_albacore"));
+        let output = graph.args(["graph", "box.alb", "--out"]).arg(&moved).current_dir(&project).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(4) && said.contains("is not as Albacore made it"), "{said}");
+        assert_eq!(std::fs::read(&moved).unwrap(), before);
+    }
 }
 
 /// What somebody puts into a run's folder while it goes on is no file of the run.

@@ -3,7 +3,7 @@
 use crate::made::summed;
 use crate::plan::{ScriptDigest, scripts, world_script};
 use crate::{disk, output};
-use albacore_session::{Plan, SOURCE_BYTES_MAX, read_file};
+use albacore_session::{Digest, Plan, SOURCE_BYTES_MAX, read_file};
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
 use std::io::{self, ErrorKind};
@@ -48,6 +48,25 @@ impl Provenance {
         serde_json::from_slice(bytes).map_err(|error| Unread::Wrong(error.to_string()))
     }
 
+    /// All of it that must be the same for a table to be gone on with, in short: no row of another campaign has a checksum that fits.
+    pub fn key(&self) -> OriginKey {
+        let mut key = Digest::new();
+        let mut add = |text: &str| {
+            // With its length: no two lists of texts come to the same bytes.
+            key.bytes(&(text.len() as u64).to_le_bytes());
+            key.bytes(text.as_bytes());
+        };
+        [&self.mission, &self.scenario, &self.albacore, &self.first_seed.to_string()]
+            .into_iter()
+            .for_each(|text| add(text));
+        for texts in [&self.set, &self.fault] {
+            add(&texts.len().to_string());
+            texts.iter().for_each(|text| add(text));
+        }
+        self.sources.iter().chain(&self.scenario_script).for_each(|script| add(&script.digest));
+        OriginKey(key.to_string())
+    }
+
     /// Writes it beside a table, whole or not at all.
     pub fn write(&self, table: &Path) -> io::Result<()> {
         disk::whole(&beside(table, ".origin"), &summed(&output::json(self)?))
@@ -85,6 +104,22 @@ impl Provenance {
             return changed(&format!("the scenario `{}` of ", self.scenario), &then.name, &now.name);
         }
         (self.sources.len() != now.sources.len()).then(|| "was begun with other imports".to_string())
+    }
+}
+
+/// What a table's checksums are made with, beside its lines.
+#[derive(Clone, Debug)]
+pub struct OriginKey(String);
+
+impl OriginKey {
+    #[cfg(test)]
+    pub fn of(text: &str) -> Self {
+        OriginKey(text.to_string())
+    }
+
+    /// Its bytes.
+    pub fn bytes(&self) -> &[u8] {
+        self.0.as_bytes()
     }
 }
 

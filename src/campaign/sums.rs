@@ -1,10 +1,10 @@
 //! Checksums of a table's lines, in a file beside it: what was changed on the disk since it was written is noticed, and where.
 //!
-//! Each line of the table, the first too, has a record of 17 bytes: the digest of its bytes, as 16 hexadecimal digits, and
-//! a line end. It is written after the line, so that a line without one was not finished.
+//! Each line of the table, the first too, has a record of 17 bytes: the digest of what the table was made from and of its bytes, as 16
+//! hexadecimal digits, and a line end. It is written after the line, so that a line without one was not finished.
 
 use super::digested_file::DigestedFile;
-use super::provenance::{Unread, beside, read_beside};
+use super::provenance::{OriginKey, Unread, beside, read_beside};
 use super::seeds::RUNS_MAX;
 use super::table::TableError;
 use crate::disk;
@@ -19,52 +19,60 @@ const RECORD: usize = 17;
 const BYTES_MAX: u64 = RECORD as u64 * (RUNS_MAX + 2);
 
 /// Where a table's checksums go.
-pub struct Sums(DigestedFile);
+pub struct Sums {
+    file: DigestedFile,
+    key: OriginKey,
+}
 
 impl Sums {
     /// Those of a table that is begun.
-    pub fn begin(table: &Path) -> Result<Self, TableError> {
-        Sums::written(path(table), b"")
+    pub fn begin(table: &Path, key: OriginKey) -> Result<Self, TableError> {
+        Sums::written(path(table), key, b"")
     }
 
     /// Goes on with what was found: where that is not of these lines it is written anew.
-    pub fn go_on<'a>(table: &Path, found: &[u8], lines: impl Iterator<Item = &'a [u8]>) -> Result<Self, TableError> {
-        let text: String = lines.map(record).collect();
+    pub fn go_on<'a>(
+        table: &Path,
+        key: OriginKey,
+        found: &[u8],
+        lines: impl Iterator<Item = &'a [u8]>,
+    ) -> Result<Self, TableError> {
+        let text: String = lines.map(|line| record(&key, line)).collect();
         let path = path(table);
         if text.as_bytes() != found {
-            return Sums::written(path, text.as_bytes());
+            return Sums::written(path, key, text.as_bytes());
         }
         match disk::known_file(&path) {
-            Ok((file, forbidden)) => Ok(Sums(DigestedFile::known(file, forbidden, path, found))),
+            Ok((file, forbidden)) => Ok(Sums { file: DigestedFile::known(file, forbidden, path, found), key }),
             Err(error) => Err(TableError::Disk(path, error)),
         }
     }
 
-    fn written(path: PathBuf, text: &[u8]) -> Result<Self, TableError> {
+    fn written(path: PathBuf, key: OriginKey, text: &[u8]) -> Result<Self, TableError> {
         match disk::replace(&path, text) {
-            Ok(file) => Ok(Sums(DigestedFile::new(file, path, text))),
+            Ok(file) => Ok(Sums { file: DigestedFile::new(file, path, text), key }),
             Err(error) => Err(TableError::Disk(path, error)),
         }
     }
 
     /// An error if they can only be read.
     pub fn may_grow(&mut self) -> Result<(), TableError> {
-        self.0.may_grow()
+        self.file.may_grow()
     }
 
     /// Adds a line.
     pub fn add(&mut self, line: &[u8]) -> Result<(), TableError> {
-        self.0.add(record(line).as_bytes())
+        self.file.add(record(&self.key, line).as_bytes())
     }
 
     /// Sees to it that the disk has all of them.
     pub fn settle(&mut self) -> Result<(), TableError> {
-        self.0.settle()
+        self.file.settle()
     }
 
     /// An error if they are not as they were written.
     pub fn is_whole(&mut self) -> Result<(), TableError> {
-        self.0.text().map(drop)
+        self.file.text().map(drop)
     }
 }
 
@@ -99,7 +107,8 @@ pub fn read(table: &Path) -> Result<Vec<u8>, Unread> {
 }
 
 /// Holds a table against its checksums. What a campaign that was killed leaves has a record for every line but the last.
-pub fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> IntactLines<'a> {
+pub fn held_against<'a>(text: &'a [u8], sums: &[u8], key: &OriginKey) -> IntactLines<'a> {
+    let record = |line: &[u8]| record(key, line);
     let lines: Vec<&[u8]> = pieces(text).collect();
     let records: Vec<&[u8]> = pieces(sums).collect();
     let written =
@@ -143,8 +152,9 @@ fn is_whole(line: &[u8]) -> bool {
     line.ends_with(b"\n")
 }
 
-fn record(line: &[u8]) -> String {
+fn record(key: &OriginKey, line: &[u8]) -> String {
     let mut digest = Digest::new();
+    digest.bytes(key.bytes());
     digest.bytes(line);
     format!("{digest}\n")
 }
@@ -155,12 +165,20 @@ fn path(table: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::{held_against, record};
+    use super::{IntactLines, OriginKey};
 
     const TABLE: &str = "seed,outcome\n1,completed\n2,aborted\n3,completed\n";
 
+    fn key() -> OriginKey {
+        OriginKey::of("this campaign")
+    }
+
+    fn held_against<'a>(text: &'a [u8], sums: &[u8]) -> IntactLines<'a> {
+        super::held_against(text, sums, &key())
+    }
+
     fn sums() -> String {
-        TABLE.split_inclusive('\n').map(|line| record(line.as_bytes())).collect()
+        TABLE.split_inclusive('\n').map(|line| super::record(&key(), line.as_bytes())).collect()
     }
 
     /// What is left of a table of which something was changed is a part of what was written, and the change is told.
@@ -220,6 +238,12 @@ mod tests {
                 is_noticed(TABLE.as_bytes(), sums.as_bytes(), &format!("{added:?} at {at} of the sums"));
             }
         }
+    }
+
+    #[test]
+    fn no_line_of_another_campaign_is_known() {
+        let kept = super::held_against(TABLE.as_bytes(), sums().as_bytes(), &OriginKey::of("another"));
+        assert!(kept.lines.is_empty() && kept.changed == [1, 2, 3, 4].into(), "{kept:?}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::digested_file::DigestedFile;
 use super::neighbours::{
     MADE_FROM, alone, alone_of_name, belongs, is_there, left_by, lock, neighbours, no_stray_link, same, silent, write,
 };
-use super::provenance::{self, Provenance, Unread, beside};
+use super::provenance::{self, OriginKey, Provenance, Unread, beside};
 use super::seeds::Seeds;
 use super::sums::{self, Sums};
 use crate::disk;
@@ -57,7 +57,7 @@ enum State {
     /// Rows are added at the end.
     Adding { file: DigestedFile, sums: Sums, rows: u64 },
     /// Rows of those that were written are run again first. The files are left as they are until all of them are known, and locked.
-    Mending { file: DigestedFile, found: Found, lines: Lines },
+    Mending { file: DigestedFile, found: Found, lines: Lines, key: OriginKey },
 }
 
 /// What is known of a table's lines, the first too.
@@ -92,7 +92,9 @@ pub fn standing(path: &Path) -> Standing {
     let Some((text, sums)) = path.canonicalize().ok().filter(|path| path.is_file()).and_then(|path| read(&path)) else {
         return Standing::Unknown;
     };
-    let kept = sums::held_against(&text, &sums);
+    let origin = path.canonicalize().ok().and_then(|path| provenance::read(&path).ok());
+    let Some(origin) = origin.and_then(|bytes| Provenance::of(&bytes).ok()) else { return Standing::Unknown };
+    let kept = sums::held_against(&text, &sums, &origin.key());
     if kept.changed.is_empty() {
         Standing::Whole(kept.lines.len().saturating_sub(1))
     } else {
@@ -140,7 +142,7 @@ impl Table {
     fn headed(path: &Path, file: File, columns: &Columns, origin: &Provenance) -> Result<Self, TableError> {
         let head = line(columns.names());
         write(origin, path)?;
-        let mut sums = Sums::begin(path)?;
+        let mut sums = Sums::begin(path, origin.key())?;
         let mut file = DigestedFile::new(file, path.to_path_buf(), &[]);
         file.add(&head)?;
         sums.add(&head)?;
@@ -197,7 +199,7 @@ impl Table {
         seeds: Seeds,
     ) -> Result<Self, TableError> {
         let head = line(columns.names());
-        let kept = sums::held_against(&found.text, &found.sums);
+        let kept = sums::held_against(&found.text, &found.sums, &origin.key());
         let mut changed = kept.changed;
         let (are_written, is_headed) = (changed.is_empty(), !kept.lines.is_empty());
         // What the first line was is known without it.
@@ -241,10 +243,10 @@ impl Table {
             write(origin, path)?;
         }
         if found.text.is_empty() && !is_there(&sums) {
-            Sums::begin(path)?;
+            Sums::begin(path, origin.key())?;
         }
         let known = (0..).zip(&lines[1..]).filter_map(|(row, line)| Some((row, line.clone()?))).last();
-        let state = State::Mending { file, found, lines };
+        let state = State::Mending { file, found, lines, key: origin.key() };
         let mut table = Table { path: path.to_path_buf(), state, known, tail, foreign };
         table.mended()?;
         match &mut table.state {
@@ -256,7 +258,7 @@ impl Table {
 
     /// Goes on adding rows if all lines are known.
     fn mended(&mut self) -> Result<(), TableError> {
-        let State::Mending { file, found, lines } = &mut self.state else { return Ok(()) };
+        let State::Mending { file, found, lines, key } = &mut self.state else { return Ok(()) };
         let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
         let written = known.concat();
         // Others may have written while rows were run.
@@ -278,7 +280,7 @@ impl Table {
         };
         let file = DigestedFile::new(file.map_err(disk_of(&self.path))?, self.path.clone(), &written);
         let rows = known.len() as u64 - 1;
-        let sums = Sums::go_on(&self.path, &found.sums, known.into_iter())?;
+        let sums = Sums::go_on(&self.path, key.clone(), &found.sums, known.into_iter())?;
         self.state = State::Adding { file, sums, rows };
         Ok(())
     }

@@ -1,12 +1,12 @@
 //! The folder of one run: whoever creates the journal in it has it, and has it alone.
 
-use super::record::{is_record, is_recorded};
+use super::record::{ToldDigests, is_record};
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
-use albacore_session::{RECORDED, RUN_FILES, is_journal, is_journal_as_left};
+use albacore_session::{RUN_FILES, is_journal, is_journal_as_left, read_file};
 use std::fs::{File, TryLockError};
-use std::io::{self, ErrorKind, Seek};
+use std::io::{self, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 /// All that a run leaves.
@@ -24,6 +24,9 @@ const RUNS: &str = "albacore-runs";
 
 /// So many bytes are kept for what the record does not say before the end.
 const RECORD_MORE: usize = 4096;
+
+/// No file beside a journal has more bytes.
+const LEFT_BYTES_MAX: u64 = 1 << 30;
 
 const ELSEWHERE: &str = "move it away, or choose another folder with `--out`";
 
@@ -101,10 +104,12 @@ impl Folder {
         disk::is_at(&self.journal, &self.path.join(JOURNAL)).unwrap_or(false)
     }
 
-    /// Whether the journal holds what the run wrote, as far as it was written. An error where it cannot be read.
-    pub fn is_journal_whole(&self) -> io::Result<bool> {
-        let open = || File::open(self.path.join(JOURNAL));
-        Ok(is_journal(open()?)? && is_journal_as_left(open()?)?)
+    /// What the journal holds, where that is what the run wrote, as far as it was written. An error where it cannot be read.
+    pub fn whole_journal(&self) -> io::Result<Option<Vec<u8>>> {
+        let mut bytes = Vec::new();
+        File::open(self.path.join(JOURNAL))?.read_to_end(&mut bytes)?;
+        let is_whole = is_journal(bytes.as_slice())? && is_journal_as_left(bytes.as_slice())?;
+        Ok(is_whole.then_some(bytes))
     }
 
     /// The files that are written as the run goes on, and where they should be.
@@ -143,17 +148,21 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
         return Err(taken(folder));
     }
     own(&journal, folder)?;
-    if !journal.rewind().and_then(|()| is_journal_as_left(&journal)).map_err(unread)? {
+    let mut bytes = Vec::new();
+    journal.rewind().and_then(|()| journal.read_to_end(&mut bytes)).map_err(unread)?;
+    // A run that was killed, or goes on where no lock tells it, has told no digest of its journal.
+    let told = ToldDigests::read(&folder.join(RECORD));
+    let is_another = told.tells(JOURNAL) && !told.is_of_the_run(JOURNAL, &bytes);
+    if is_another || !is_journal_as_left(bytes.as_slice()).map_err(unread)? {
         return Err(foreign(&path));
     }
     // What is not to be removed is said before anything is.
-    if let Some(name) = beside_journal().find(|name| is_there(name) && !is_left(&folder.join(name))) {
+    if let Some(name) = beside_journal().find(|name| is_there(name) && !is_left(&folder.join(name), &told)) {
         return Err(foreign(&folder.join(name)));
     }
-    // Whoever ends this in between finds no record beside another journal, and no picture beside another record. What was recorded goes
-    // before the record, which alone tells that it is a run's.
-    let others = beside_journal().filter(|name| *name != RECORDED.name);
-    let done = std::iter::once(RECORDED.name).chain(others).chain([JOURNAL]).try_for_each(|name| {
+    // Whoever ends this in between finds no record beside another journal, and the record as long as there is anything that it alone tells to
+    // be the run's.
+    let done = RUN_FILES.iter().map(|file| file.name).chain([RECORD, JOURNAL]).try_for_each(|name| {
         let path = folder.join(name);
         remove(&path).map_err(|error| unwritable(&path, &error))
     });
@@ -162,15 +171,12 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
     done
 }
 
-/// Whether a file beside a journal is as a run has left it.
-fn is_left(path: &Path) -> bool {
+/// Whether a file beside a journal is as the run has left it.
+fn is_left(path: &Path, told: &ToldDigests) -> bool {
     let is_file = path.symlink_metadata().is_ok_and(|there| there.is_file());
-    is_file
-        && match path.file_name() {
-            Some(name) if name == RECORD => is_record(path),
-            Some(name) if name == RECORDED.name => is_recorded(&path.with_file_name(RECORD), path),
-            _ => disk::spare(path).is_ok(),
-        }
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let is_of_the_run = || read_file(path, LEFT_BYTES_MAX).is_ok_and(|bytes| told.is_of_the_run(name, &bytes));
+    is_file && if name == RECORD { is_record(path) } else { is_of_the_run() }
 }
 
 /// Creates the journal: of several runs that do so at once, one succeeds.
@@ -229,8 +235,8 @@ fn unreadable(path: &Path, error: &io::Error) -> Refusal {
 mod tests {
     use super::*;
 
-    /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and its record only beside all of it but what it
-    /// recorded, which nothing else tells to be a run's.
+    /// Whoever is killed while he replaces a run leaves nothing of it beside another journal, and the record as long as there is anything that it
+    /// alone tells to be the run's.
     #[test]
     fn a_run_is_replaced_from_its_record_to_its_journal() {
         for allowed in 0..2 + RUN_FILES.len() {
@@ -242,12 +248,7 @@ mod tests {
             let mut remove = |path: &Path| {
                 let old: Vec<&str> = files().filter(|name| folder.path().join(name).exists()).collect();
                 assert!(old.contains(&JOURNAL), "after {removed}: {old:?}");
-                let recorded = usize::from(old.contains(&RECORDED.name));
-                assert!(
-                    old.len() == files().count() - 1 + recorded || !old.contains(&RECORD),
-                    "after {removed}: {old:?}"
-                );
-                assert!(old.contains(&RECORD) || recorded == 0, "after {removed}: {old:?}");
+                assert!(old.contains(&RECORD) || old == [JOURNAL], "after {removed}: {old:?}");
                 removed += 1;
                 if removed > allowed { Err(ErrorKind::PermissionDenied.into()) } else { disk::remove(path) }
             };

@@ -5,7 +5,7 @@ use crate::clock::Utc;
 use crate::made::{is_as_summed, summed};
 use crate::output;
 use crate::plan::{ScriptDigest, scripts, world_script};
-use albacore_session::{Digest, Outcome, Plan, RECORDED_BYTES_MAX, SOURCE_BYTES_MAX, Summary, read_file};
+use albacore_session::{Digest, Outcome, Plan, SOURCE_BYTES_MAX, Summary, read_file};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -36,9 +36,8 @@ pub struct Record {
     reason: String,
     ticks: Option<u64>,
     digest: Option<String>,
-    /// The digest of what was recorded, if anything was.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recorded: Option<String>,
+    /// The digests of the files beside it: by them alone they are known to be of this run.
+    files: BTreeMap<&'static str, String>,
     /// The files that are not whole, or not there, and why.
     lost: BTreeMap<&'static str, String>,
     /// The digest of all before it.
@@ -53,18 +52,31 @@ pub fn is_record(path: &Path) -> bool {
     bytes.is_empty() || is_as_summed(&bytes[..bytes.len() - blanks])
 }
 
-/// Whether a table of what was recorded is as the run has left it whose record this is. One that has just been created is empty.
-pub fn is_recorded(record: &Path, table: &Path) -> bool {
-    let read = |path, most: usize| read_file(path, most as u64).ok();
-    let Some(rows) = read(table, RECORDED_BYTES_MAX) else { return false };
-    let told = read(record, SOURCE_BYTES_MAX).and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
-    rows.is_empty() || told.is_some_and(|told| told["recorded"] == digest(&rows))
+/// The digests of a run's files, as its record tells them.
+pub struct ToldDigests(serde_json::Value);
+
+impl ToldDigests {
+    /// Those of the record at a path. None where it tells none.
+    pub fn read(record: &Path) -> Self {
+        let text = read_file(record, SOURCE_BYTES_MAX as u64).ok();
+        let told = text.and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
+        ToldDigests(told.map_or(serde_json::Value::Null, |mut told| told["files"].take()))
+    }
+
+    /// Whether a file with these bytes is the run's. One that has just been created is empty.
+    pub fn is_of_the_run(&self, name: &str, bytes: &[u8]) -> bool {
+        bytes.is_empty() || self.0[name] == digest(bytes)
+    }
+
+    /// Whether they tell that of a file.
+    pub fn tells(&self, name: &str) -> bool {
+        self.0[name].is_string()
+    }
 }
 
-/// The digest of a table.
-fn digest(table: &[u8]) -> String {
+fn digest(bytes: &[u8]) -> String {
     let mut digest = Digest::new();
-    digest.bytes(table);
+    digest.bytes(bytes);
     digest.to_string()
 }
 
@@ -103,7 +115,7 @@ impl Record {
             reason: String::new(),
             ticks: None,
             digest: None,
-            recorded: None,
+            files: BTreeMap::new(),
             lost: BTreeMap::new(),
             sum: "",
         }
@@ -135,9 +147,9 @@ impl Record {
         self.digest = Some(summary.digest.clone());
     }
 
-    /// What was recorded.
-    pub fn recorded(&mut self, table: &str) {
-        self.recorded = Some(digest(table.as_bytes()));
+    /// A file holds these bytes.
+    pub fn holds(&mut self, name: &'static str, bytes: &[u8]) {
+        self.files.insert(name, digest(bytes));
     }
 
     /// The run could not be begun.
@@ -201,7 +213,7 @@ mod tests {
             reason: "\u{202e}why".repeat(10_000),
             ticks: None,
             digest: None,
-            recorded: None,
+            files: BTreeMap::new(),
             lost: BTreeMap::new(),
             sum: "",
         };

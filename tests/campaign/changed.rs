@@ -2,9 +2,10 @@
 //! and what it did not write is told and kept.
 
 use crate::{
-    ABORTING, BOX, FOREVER, REPORTING, command, empty, refused, rows, script, shell, stderr, table, under_way,
+    ABORTING, BOX, FOREVER, REPORTING, SWAPPED, command, empty, refused, rows, script, shell, stderr, table, under_way,
 };
 use albacore_trace::Digest;
+use serde_json::Value;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,12 +24,38 @@ fn a_torn_last_line_is_made_whole() {
     assert_eq!(table(BOX, "1..4", &out, &["--resume"]), whole);
 }
 
+/// What the checksums of a table hold of its origin.
+fn key(out: &Path) -> String {
+    let origin: Value = serde_json::from_slice(&std::fs::read(out.with_extension("csv.origin")).unwrap()).unwrap();
+    let texts = |name: &str, of: &str| -> Vec<String> {
+        let list = origin[name].as_array().cloned().unwrap_or_default();
+        list.iter().map(|item| if of.is_empty() { item } else { &item[of] }.as_str().unwrap().to_string()).collect()
+    };
+    let mut key: Vec<String> =
+        ["mission", "scenario", "albacore"].map(|name| origin[name].as_str().unwrap().into()).into();
+    key.push(origin["first_seed"].to_string());
+    for list in [texts("set", ""), texts("fault", "")] {
+        key.push(list.len().to_string());
+        key.extend(list);
+    }
+    key.extend(texts("sources", "digest"));
+    key.extend(origin["scenario_script"]["digest"].as_str().map(str::to_string));
+    let mut digest = Digest::new();
+    for text in key {
+        digest.bytes(&(text.len() as u64).to_le_bytes());
+        digest.bytes(text.as_bytes());
+    }
+    digest.to_string()
+}
+
 /// Writes the checksums of a table as if it had been written so.
 fn sums(out: &Path) {
     let text = std::fs::read_to_string(out).unwrap();
+    let key = key(out);
     let sum = |line: &str| {
         let mut digest = Digest::new();
-        digest.text(line);
+        digest.bytes(key.as_bytes());
+        digest.bytes(line.as_bytes());
         format!("{digest}\n")
     };
     let sums: String = text.split_inclusive('\n').map(sum).collect();
@@ -49,6 +76,25 @@ fn a_row_that_comes_out_otherwise_is_said() {
     refused(BOX, "1..5", &out, &["--resume"], 2, "line 2: this is no row of this campaign");
     std::fs::remove_file(out.with_extension("csv.sums")).unwrap();
     refused(BOX, "1..5", &out, &["--resume"], 2, "no `.sums` beside it");
+}
+
+/// Neither an origin nor a table with its checksums fits another campaign: no row of that is taken for one of this.
+#[test]
+fn no_row_of_another_campaign_is_gone_on_with() {
+    let folder = empty("swapped");
+    let mission = script(&folder, "reporting.alb", SWAPPED);
+    let (here, there) = (folder.join("a.csv"), folder.join("b.csv"));
+    let short = ["--set", "long=10 s", "--resume"];
+    let other = table(&mission, "1..4", &here, &[]);
+    let own = table(&mission, "1..4", &there, &short[..2]);
+    assert_ne!(other, own);
+    let beside = |table: &Path, what: &str| table.with_extension(format!("csv.{what}"));
+    std::fs::copy(beside(&there, "origin"), beside(&here, "origin")).unwrap();
+    assert_eq!(table(&mission, "1..4", &here, &short), own, "the origin of another");
+    assert!(folder.join("a.csv.found").exists() && folder.join("a.csv.found.sums").exists());
+    std::fs::write(&there, &other).unwrap();
+    let mended = table(&mission, "1..4", &there, &short);
+    assert_eq!(mended, own, "the table of another");
 }
 
 /// A disk that forgets bits, at forty places of a table and its checksums: each is told with its line, and mended.

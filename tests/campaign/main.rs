@@ -62,6 +62,23 @@ scenario still {
 }
 ";
 
+/// One that takes as long as it is told to.
+const SWAPPED: &str = "
+mission lasting(long: Duration = 20 s in 1 s..1 min) in still within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 200 m, width: 200 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    steer north for long
+}
+
+scenario still {
+    bottom(from: 20 m, to: 20 m)
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m)
+}
+";
+
 /// An empty folder of a test's own.
 fn empty(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign").join(name);

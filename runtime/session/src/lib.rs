@@ -52,7 +52,7 @@ pub use past::PastRun;
 pub use plan::{Plan, PlanError};
 pub use recorders::journal::{Sink, is_journal, is_journal_as_left};
 pub use recorders::recorded::RECORDED_BYTES_MAX;
-pub use recorders::{Form, PICTURE, RECORDED, RUN_FILES, RunFile, TRACE};
+pub use recorders::{PICTURE, RECORDED, RUN_FILES, RunFile, TRACE};
 pub use run::{LiveOptions, LiveRun, LiveUpdate, Run, Running, WAITING_BYTES};
 pub use served_vehicle::{FarEnd, ServedVehicle};
 pub use shown::{Shown, ShownClause, ValueSource};

@@ -62,33 +62,19 @@ impl<R: Recorder> Recorder for Option<R> {
 pub struct RunFile {
     /// What it is called in the run's folder.
     pub name: &'static str,
-    /// What it holds.
-    pub form: Form,
     /// Whether a run leaves it.
     pub(crate) is_left: fn(&InMemory) -> bool,
     pub(crate) make: fn(&InMemory, &WorldAtEnd) -> String,
 }
 
-/// What a file holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// Lines that stand for themselves.
-    Lines,
-    /// SVG, HTML or the like.
-    Markup,
-    /// Rows of numbers, among which nothing else may stand.
-    Table,
-}
-
 /// What the mission did.
 pub const TRACE: RunFile =
-    RunFile { name: "trace.txt", form: Form::Lines, is_left: |_| true, make: |run, _| run.trace.lines().to_string() };
+    RunFile { name: "trace.txt", is_left: |_| true, make: |run, _| run.trace.lines().to_string() };
 /// Where it went.
-pub const PICTURE: RunFile = RunFile { name: "run.svg", form: Form::Markup, is_left: |_| true, make: picture::of_run };
+pub const PICTURE: RunFile = RunFile { name: "run.svg", is_left: |_| true, make: picture::of_run };
 /// What it recorded.
 pub const RECORDED: RunFile = RunFile {
     name: "recorded.csv",
-    form: Form::Table,
     is_left: |run| run.recorded.is_wanted(),
     make: |run, _| run.recorded.text().to_string(),
 };

@@ -48,7 +48,7 @@ struct Clause {
     rate: f64,
     /// Places among the columns.
     columns: Vec<usize>,
-    /// The first tick after the last on which it was due: what came before is no news.
+    /// The first tick after the last on which it was due, active or not: what came before is no news of it.
     since: u64,
 }
 
@@ -56,6 +56,8 @@ struct Clause {
 struct Column {
     input: usize,
     measurement: Option<usize>,
+    /// The first tick after the last row that told it: no sample stands twice.
+    told: u64,
 }
 
 impl Recorded {
@@ -81,7 +83,7 @@ impl Recorded {
                 let known = columns.iter().position(|column| column.input == input);
                 own.push(known.unwrap_or(columns.len()));
                 if known.is_none() {
-                    columns.push(Column { input, measurement: measured(&program.inputs[input].name) });
+                    columns.push(Column { input, measurement: measured(&program.inputs[input].name), told: 0 });
                     labels.push(fields);
                 }
             }
@@ -148,11 +150,10 @@ impl Recorded {
         self.latest.get(measurement?).copied().flatten().filter(|(then, _)| *then >= tick)
     }
 
-    /// The first tick of which a column that is due tells samples: behind the tick on which it was due last, by whichever clause, so that
-    /// no sample stands twice. `None` where it is not due.
+    /// The first tick of which a column tells samples in a row in which clauses are due; `None` where none of them has it.
     fn due_since(&self, column: usize, due: &[usize]) -> Option<u64> {
-        due.iter().find(|&&clause| self.clauses[clause].columns.contains(&column))?;
-        self.clauses.iter().filter(|clause| clause.columns.contains(&column)).map(|clause| clause.since).max()
+        let clauses = due.iter().map(|&clause| &self.clauses[clause]).filter(|clause| clause.columns.contains(&column));
+        Some(clauses.map(|clause| clause.since).min()?.max(self.columns[column].told))
     }
 
     /// A row with the columns of some clauses.
@@ -211,6 +212,9 @@ impl Recorder for Recorded {
             .collect();
         if !due.is_empty() {
             self.row(record.tick, &due);
+            for &clause in &due {
+                self.clauses[clause].columns.iter().for_each(|&column| self.columns[column].told = record.tick + 1);
+            }
         }
         self.clauses.iter_mut().filter(|clause| is_due(clause)).for_each(|clause| clause.since = record.tick + 1);
     }

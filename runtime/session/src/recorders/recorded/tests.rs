@@ -51,6 +51,18 @@ fn what_is_recorded_at_two_rates_stands_in_one_row() {
     assert_eq!(recorded.text(), format!("{HEAD}{rows}"));
 }
 
+/// A behavior that is not active takes no sample from the mission's row.
+#[test]
+fn what_is_not_recorded_is_not_told() {
+    let mut recorded = recorded(1000);
+    // The behavior's clause is due at 0.6 s and 0.8 s, and it is not active; it is from 1.2 s on.
+    (3..=14).for_each(|at| {
+        let samples = if at == 5 || at == 11 { vec![(1, at as f64)] } else { Vec::new() };
+        recorded.take(&tick(at, if at < 12 { &[0] } else { &[0, 1] }, &samples));
+    });
+    assert_eq!(recorded.text(), format!("{HEAD}1.0,,,,5\n1.2,,,,11\n1.4,,,,\n"));
+}
+
 #[test]
 fn a_mission_records_in_its_recovery_too_and_a_behavior_while_it_is_active() {
     let mut recorded = recorded(1000);
