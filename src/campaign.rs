@@ -171,7 +171,9 @@ impl Campaign {
         if crowded > 0 {
             let what = format!("{crowded} of {} runs reported more often than the table has columns for", tally.runs());
             let help = match most <= REPORTS_MAX {
-                true => format!("with `--reports {most}` there is room for all"),
+                true => format!(
+                    "with `--reports {most}` there is room for all: it counts the reports of one name, and fewer may do"
+                ),
                 false => format!("`--reports {REPORTS_MAX}` is the most: `run --seed N --json` has more of one run"),
             };
             message::warning(&what, &help);

@@ -112,8 +112,15 @@ fn cells(line: usize, row: &str) -> Result<Vec<String>, Fault> {
     while let Some((i, part)) = parts.next() {
         // Parts behind an odd number of quotes stand within them, and two quotes within them are one of the cell's own.
         is_quoted = i % 2 == 1;
-        if !is_quoted && part.is_empty() && i > 0 && parts.peek().is_some() {
+        let is_own = !is_quoted && part.is_empty() && i > 0 && parts.peek().is_some();
+        if is_own {
             cells.last_mut().into_iter().for_each(|cell| cell.push('"'));
+        }
+        // What stands beside the quotes of a cell is blank: `1"0"` is no ten.
+        let beside = [(i > 0).then(|| part.split(',').next()), parts.peek().map(|_| part.rsplit(',').next())];
+        if !is_quoted && !is_own && beside.into_iter().flatten().flatten().any(|text| !text.trim().is_empty()) {
+            let help = "write a cell without quotes, or all of it within them";
+            return Err(Fault::new(format!("line {line} has a quote within a cell"), help));
         }
         let mut pieces = if is_quoted { vec![part] } else { part.split(',').collect() }.into_iter();
         if let (Some(cell), Some(first)) = (cells.last_mut(), pieces.next()) {
@@ -331,6 +338,10 @@ mod tests {
                 "line 4 has a quote that does not close"
             ]
         );
+        let quotes =
+            "line 2 has a quote within a cell; line 3 has a quote within a cell; line 4 has a quote within a cell";
+        assert_eq!(rows("0,1\"0\"\n1,\"1\"0\n\"2\"\"\"3,1\n"), [quotes]);
+        assert_eq!(read("time (s),\"a \"\"b\"\"\",temperature (degC)\n 0 ,\"\", \"7\" \n").unwrap(), [(0.0, 7.0)]);
         assert_eq!(rows(&",".repeat(2000)), ["line 2 has more than 1000 cells"]);
         assert_eq!(rows("0,\n1,"), ["no row holds a sample of `temperature`"]);
     }
