@@ -34,6 +34,45 @@ fn values_from_outside_are_checked() {
     }
 }
 
+/// A scenario that replaces the clause which reads a parameter has that parameter still, and a behavior of its name is no scenario.
+#[test]
+fn what_no_clause_reads_is_not_set() {
+    let script = |mission: &str| {
+        format!(
+            "scenario water(current: Speed = 20 cm/s in 0 cm/s..2 m/s) = still_water with {{ flow(current toward south) }}
+scenario fast = water with {{ flow(70 cm/s toward south) }}
+behavior stay {{ wait for 3 s }}
+strategy other {{
+    behavior water {{ stay() }}
+    start water
+    water -> finish on done
+}}
+mission m in {mission} within 10 min {{
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits {{ altitude >= 2 m, speed <= 2.5 m/s }}
+    requires {{ position, course, heading, depth fresh 5 s, else abort }}
+    recovery within 5 min {{ goto op.center at depth 3 m, speed 1 m/s }}
+    with depth 3 m, speed 1 m/s
+    stay()
+    if depth > 1 km {{ other() }}
+}}
+"
+        )
+    };
+    let codes = |scenario: &str, set: &str| -> Vec<&'static str> {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("unread-{scenario}.alb"));
+        std::fs::write(&path, script(scenario)).unwrap();
+        let told = load(&path, None, &[set.to_string()]).unwrap();
+        told.findings.iter().map(|finding| finding.code.name()).filter(|code| code.starts_with("set")).collect()
+    };
+    for set in ["current=1 m/s", "water.current=1 m/s"] {
+        assert_eq!(codes("water", set), [""; 0], "{set}");
+    }
+    for set in ["current=1 m/s", "fast.current=1 m/s", "water.current=1 m/s"] {
+        assert_eq!(codes("fast", set), ["set::unreached"], "{set}");
+    }
+}
+
 /// What a person reads when a value from outside is wrong.
 #[test]
 fn wrong_values_are_told() {

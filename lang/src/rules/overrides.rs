@@ -3,7 +3,7 @@
 use crate::check::Override;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Expr, Hir};
+use crate::hir::{Activity, ClauseArg, ClauseUse, Expr, ExprKind, Hir, Scenario};
 use albacore_wording::listed;
 use std::collections::BTreeSet;
 
@@ -23,7 +23,9 @@ pub fn check(hir: &Hir, missions: &[usize], run_in: Option<RunIn>, overrides: &[
     let mut findings = Vec::new();
     for set in overrides {
         let Some(name) = &set.found else { continue };
-        let Some(id) = hir.activities.iter().position(|a| a.full_name == *name) else {
+        // A behavior of a table may have the name of a scenario, and has no parameters.
+        let has_it = |a: &Activity| a.full_name == *name && a.vars[..a.params].iter().any(|var| var.name == set.param);
+        let Some(id) = hir.activities.iter().position(has_it) else {
             findings.extend(run_in.and_then(|run_in| elsewhere(hir, name, run_in, set)));
             continue;
         };
@@ -49,7 +51,7 @@ pub fn check(hir: &Hir, missions: &[usize], run_in: Option<RunIn>, overrides: &[
 fn elsewhere(hir: &Hir, name: &str, run_in: RunIn, set: &Override) -> Option<Diagnostic> {
     let id = hir.scenarios.iter().position(|scenario| scenario.full_name == name)?;
     let run_in = match run_in {
-        RunIn::One(other) if other == id => return None,
+        RunIn::One(other) if other == id => return unread(&hir.scenarios[id], set),
         RunIn::One(other) => format!("`{}`", hir.scenarios[other].path),
         RunIn::Elsewhere => "a scenario of another file".to_string(),
     };
@@ -57,6 +59,24 @@ fn elsewhere(hir: &Hir, name: &str, run_in: RunIn, set: &Override) -> Option<Dia
     let message = format!("`{path}.{}` is set, and what runs is {run_in}", set.param);
     let help = format!("choose that scenario with `--in {path}`, or leave this out: it would change nothing");
     Some(Diagnostic::error(Code::SetUnreached, set.value.span, message).help(help))
+}
+
+/// The finding for a parameter that no clause of its scenario reads: what reads it in the scenario of which that is derived was replaced.
+fn unread(scenario: &Scenario, set: &Override) -> Option<Diagnostic> {
+    let param = scenario.vars.iter().position(|var| var.name == set.param)?;
+    if scenario.clauses.iter().any(|clause| reads(clause, param)) {
+        return None;
+    }
+    let message = format!("`{}.{}` is set, and no clause of `{}` reads it", scenario.path, set.param, scenario.path);
+    let help = "look at its clauses with `albacore scenario show`, or leave this out: it would change nothing";
+    Some(Diagnostic::error(Code::SetUnreached, set.value.span, message).help(help))
+}
+
+fn reads(clause: &ClauseUse, param: usize) -> bool {
+    clause.args.iter().any(|(_, arg)| match arg {
+        ClauseArg::Value(e) => e.contains(|e| matches!(e.kind, ExprKind::Var(id) if id == param)),
+        ClauseArg::Nested(clause) => reads(clause, param),
+    })
 }
 
 /// The finding for a default that is set and that no call takes: each gives the argument itself.
