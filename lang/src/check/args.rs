@@ -2,7 +2,7 @@
 
 use super::expr::article;
 use super::quantity::{is_of_quantity, is_zero};
-use super::{Checker, Def, ParamInfo, Setting, globe};
+use super::{Checker, Def, ParamInfo, globe};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
@@ -12,11 +12,11 @@ use crate::syntax::tree;
 use crate::types::Type;
 use albacore_geometry::{AREA_REACH_MAX_M, AREA_WIDTH_MIN_M};
 use albacore_program::{Channel, Guide};
-use albacore_syntax::other_languages;
 use albacore_wording::listed;
 
 /// What is said of an area that is meant to be round.
-const ROUND: &str = "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
+pub(super) const ROUND: &str =
+    "an area has corners: `rectangle(center: POINT, along: 0 deg, length: 400 m, width: 400 m)`";
 
 /// How a time limit is called elsewhere, where it is an argument.
 const TIME_LIMITS: [&str; 5] = ["timeout", "time_limit", "time", "duration", "within"];
@@ -386,35 +386,6 @@ impl<'t> Checker<'t> {
                 self.unknown(span)
             }
         }
-    }
-
-    fn takes_time(&mut self, name: &str, span: Span) {
-        let finding = Diagnostic::error(Code::TimeCall, span, format!("`{name}` takes time: it is no value"));
-        self.report(finding.help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")));
-    }
-
-    fn no_such_function(&mut self, name: &str, span: Span, expected: Option<&Type>) {
-        if self.use_given(name, span).is_some() {
-            return self.takes_time(name, span);
-        }
-        let finding = Diagnostic::error(Code::NamesUnknown, span, format!("nothing named `{name}` can be called"));
-        let known = BUILTINS.iter().copied().chain(self.callable_names());
-        // No area is round, and elsewhere `circle` is driven.
-        let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
-        let value = round.or_else(|| other_languages::called(name));
-        let takes_time = value.is_none() && self.scope.setting == Setting::Instant;
-        let foreign = value.or_else(|| other_languages::help(name));
-        let finding = match (foreign, self.nearest(name, known)) {
-            (Some(help), _) if takes_time => {
-                finding.help(format!("{help}, in the body of a behavior: here everything is instantaneous"))
-            }
-            (Some(help), _) => finding.help(help),
-            (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
-            (None, None) => {
-                finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`")
-            }
-        };
-        self.report(finding);
     }
 
     /// Says what is wrong with a rectangle's side.

@@ -1,8 +1,9 @@
 //! The first pass: what every module declares, before any body is looked at.
 
 use super::derived::Declared;
+use super::lazy::Lazy;
 use super::units::UnitsAhead;
-use super::{Checker, ClauseInfo, Def, Lazy, Module, Signature, ends};
+use super::{Checker, ClauseInfo, Def, Module, Signature, ends};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;

@@ -6,7 +6,7 @@ use super::args::Given;
 use super::capacities::{Capacities, Declared, INSTANCES_MAX, NOMINAL, capacity};
 use super::expr::article;
 use super::names::Found;
-use super::{BehaviorType, Checker, Def, ParamInfo, Scope, Setting, Signature};
+use super::{Checker, Def, ParamInfo, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Action, ActivityId, VarKind};
@@ -14,6 +14,15 @@ use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, TyKind};
 use crate::types::Type;
 use std::collections::BTreeMap;
+
+/// What is known of a behavior that is given.
+#[derive(Clone, Debug)]
+pub(super) struct BehaviorType {
+    /// The types of what it is called with.
+    takes: Vec<Type>,
+    /// That of the result that is read.
+    result: Option<Type>,
+}
 
 /// A parameter that is a behavior, and which one it is.
 #[derive(Clone)]
@@ -266,6 +275,25 @@ impl<'t> Checker<'t> {
             return None;
         };
         let given = self.activity_signature(id).clone();
+        // What is handed on has the result that its own parameter names, and that was looked at where that is declared.
+        let own_result = handed_on.as_ref().map_or_else(|| given.result.clone(), |given| given.result.clone());
+        let is_told = handed_on.is_some() && !self.scope.is_nominal;
+        let wrong = self.misfit(&given, param, takes).or_else(|| {
+            let wants = result.as_ref().filter(|wants| !is_told && own_result.as_ref() != Some(*wants))?;
+            let wants = article(&self.type_name(wants));
+            let has = own_result.as_ref().map_or("no result".to_string(), |has| article(&self.type_name(has)));
+            Some(format!("`{}` has {has}, and of `{}` {wants} is read", given.name, param.name))
+        });
+        if let Some(message) = wrong {
+            let finding = Diagnostic::error(Code::TypesBehavior, written.span, message);
+            self.report(finding.label(param.span, "it is called with this").label(given.span, "declared here"));
+            return None;
+        }
+        Some(id)
+    }
+
+    /// What of a behavior does not fit what it is called with.
+    fn misfit(&self, given: &Signature, param: &ParamInfo, takes: &[Type]) -> Option<String> {
         let wrong = takes.iter().enumerate().find_map(|(i, ty)| match given.params.get(i) {
             None => Some(format!(
                 "`{}` takes {}, and `{}` gives it {}",
@@ -296,26 +324,11 @@ impl<'t> Checker<'t> {
             Some(_) => None,
         });
         let more = given.params.iter().skip(takes.len()).find(|own| own.default.is_none());
-        let wrong = wrong.or_else(|| {
+        wrong.or_else(|| {
             more.map(|own| {
                 format!("`{}` of `{}` has no default, and `{}` gives it nothing", own.name, given.name, param.name)
             })
-        });
-        // What is handed on has the result that its own parameter names, and that was looked at where that is declared.
-        let own_result = handed_on.as_ref().map_or(given.result, |given| given.result.clone());
-        let is_told = handed_on.is_some() && !self.scope.is_nominal;
-        let wrong = wrong.or_else(|| {
-            let wants = result.as_ref().filter(|wants| !is_told && own_result.as_ref() != Some(*wants))?;
-            let wants = article(&self.type_name(wants));
-            let has = own_result.as_ref().map_or("no result".to_string(), |has| article(&self.type_name(has)));
-            Some(format!("`{}` has {has}, and of `{}` {wants} is read", given.name, param.name))
-        });
-        if let Some(message) = wrong {
-            let finding = Diagnostic::error(Code::TypesBehavior, written.span, message);
-            self.report(finding.label(param.span, "it is called with this").label(given.span, "declared here"));
-            return None;
-        }
-        Some(id)
+        })
     }
 
     /// The behavior that is made of another with what it is given.

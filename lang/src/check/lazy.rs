@@ -1,6 +1,6 @@
 //! Constants and signals of files: each is checked when it is first read, and stands wherever it is read.
 
-use super::{Checker, Lazy, Scope, Setting, Signature};
+use super::{Checker, Scope, Setting, Signature};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir;
@@ -15,6 +15,13 @@ const WAITING_MAX: usize = 16;
 const CONSTANT_PARTS_MAX: usize = 4096;
 /// Parts of constants and defaults that are read, each counted wherever it is: they stand for their values there.
 const PARTS_READ_MAX: usize = 1 << 20;
+
+/// A constant or a module's signal: checked when first needed.
+pub(super) enum Lazy<'t> {
+    Unchecked { module: usize, name: &'t tree::Name, ty: Option<&'t tree::Ty>, value: &'t tree::Expr },
+    InProgress(&'t tree::Name),
+    Done(hir::Expr),
+}
 
 impl<'t> Checker<'t> {
     /// The signature of a function, read when first needed: defaults and ranges of parameters may call other functions. It has

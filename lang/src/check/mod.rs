@@ -35,18 +35,21 @@ mod payload;
 mod plausibility;
 mod polygon;
 mod quantity;
+mod questions;
 mod recording;
 mod records;
 mod recursion;
 mod result_range;
 mod room;
 mod scenario;
+mod stray;
 mod table;
 mod test;
 mod timed;
 mod truth;
 mod type_syntax;
 mod units;
+mod unknown_calls;
 mod unused;
 mod value;
 mod vehicle;
@@ -146,13 +149,6 @@ impl Def {
     }
 }
 
-/// A constant or a module's signal: checked when first needed.
-enum Lazy<'t> {
-    Unchecked { module: usize, name: &'t tree::Name, ty: Option<&'t tree::Ty>, value: &'t tree::Expr },
-    InProgress(&'t tree::Name),
-    Done(hir::Expr),
-}
-
 /// What a parameter of anything callable is.
 #[derive(Clone, Debug)]
 struct ParamInfo {
@@ -161,17 +157,8 @@ struct ParamInfo {
     default: Option<hir::Expr>,
     range: Option<Interval>,
     /// What is known of one that is a behavior.
-    behavior: Option<BehaviorType>,
+    behavior: Option<given_behaviors::BehaviorType>,
     span: Span,
-}
-
-/// What is known of a behavior that is given.
-#[derive(Clone, Debug)]
-struct BehaviorType {
-    /// The types of what it is called with.
-    takes: Vec<Type>,
-    /// That of the result that is read.
-    result: Option<Type>,
 }
 
 /// What is known of a callable before its body is looked at.
@@ -311,8 +298,8 @@ pub struct Checker<'t> {
     /// Where each module declares what it does, and its imports, by their names.
     places: Vec<BTreeMap<String, Span>>,
     import_places: Vec<BTreeMap<String, Span>>,
-    consts: Vec<Lazy<'t>>,
-    signals: Vec<Lazy<'t>>,
+    consts: Vec<lazy::Lazy<'t>>,
+    signals: Vec<lazy::Lazy<'t>>,
     /// How many constants and signals wait for others.
     waiting: usize,
     /// Parts of constants that have been read.

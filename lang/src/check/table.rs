@@ -2,7 +2,7 @@
 
 use super::ends::{Known, can_end};
 use super::expr::article;
-use super::{Checker, Setting, flow};
+use super::{Checker, Setting, flow, stray};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
@@ -18,8 +18,6 @@ const EXITS_MAX: usize = 65_536;
 /// Of the rules that shadow another so many are shown.
 const SHOWN: usize = 3;
 
-/// What is said of a statement beside behaviors and rules.
-const NO_STATEMENTS: &str = "a switching table has no statements";
 /// Words with which other tables end.
 const ENDS: [&str; 9] = ["end", "complete", "completed", "stop", "exit", "quit", "success", "finished", "terminate"];
 
@@ -31,13 +29,7 @@ impl<'t> Checker<'t> {
         result: Option<&Type>,
         clauses: &[&'t Clause],
     ) -> Body {
-        if let Some(inner) = among_statements(clauses) {
-            let message = format!("the behavior `{}` stands among the statements of `{}`", inner.node, a.name.node);
-            let finding = Diagnostic::error(Code::RulesStart, inner.span, message);
-            self.report(finding.help(format!(
-                "declare it before `{}`; with `start {}` and rules in place of the statements it is a switching table",
-                a.name.node, inner.node
-            )));
+        if self.is_no_table(a, clauses) {
             return Body::Sequence(hir::Block::default());
         }
         let mut names = Names::default();
@@ -63,19 +55,8 @@ impl<'t> Checker<'t> {
                     }
                 }
                 ClauseKind::Rule(rule) => written.push(rule),
-                _ if alone(clause).is_some() && unstarted.is_none() => unstarted = alone(clause),
-                // It stands behind a statement, and that is what is wrong.
-                ClauseKind::With(_) => {}
-                ClauseKind::Let { .. } | ClauseKind::Var { .. } => self.misplaced(
-                    clause.span,
-                    NO_STATEMENTS,
-                    "what changes is a `memory` of the table, what does not a `const` of the file or a parameter",
-                ),
-                _ => self.misplaced(
-                    clause.span,
-                    NO_STATEMENTS,
-                    "move it into a behavior, and name that behavior in the table",
-                ),
+                _ if stray::alone(clause).is_some() && unstarted.is_none() => unstarted = stray::alone(clause),
+                _ => self.stray_statement(clause),
             }
         }
         if let Some((name, span)) = unstarted {
@@ -83,7 +64,7 @@ impl<'t> Checker<'t> {
                 start = names.index(name).map(|i| names.all[i]);
             }
             let help = format!("write `start {name}`, if it begins with that behavior");
-            self.misplaced(span, NO_STATEMENTS, &help);
+            self.misplaced(span, stray::NO_STATEMENTS, &help);
         }
         let mut room = Room::of(&names);
         let mut rules = Vec::new();
@@ -464,31 +445,6 @@ impl Room {
         }
         self.all += sources.len();
         (self.all > EXITS_MAX).then(|| format!("the behaviors of this table have more than {EXITS_MAX} rules together"))
-    }
-}
-
-/// A behavior that is declared among statements, where no rule and no `start` makes a table of them.
-fn among_statements<'t>(clauses: &[&'t Clause]) -> Option<&'t tree::Name> {
-    let is_table =
-        |clause: &&Clause| matches!(clause.kind, ClauseKind::Start(_) | ClauseKind::Rule(_)) || alone(clause).is_some();
-    let is_other = |clause: &&Clause| !matches!(clause.kind, ClauseKind::Behavior(_) | ClauseKind::With(_));
-    if clauses.iter().any(is_table) || !clauses.iter().any(is_other) {
-        return None;
-    }
-    clauses.iter().find_map(|clause| match &clause.kind {
-        ClauseKind::Behavior(behavior) => Some(&behavior.name),
-        _ => None,
-    })
-}
-
-/// A name that stands alone, as after a `start` that was left out.
-fn alone(clause: &Clause) -> Option<(&str, Span)> {
-    match &clause.kind {
-        ClauseKind::Timed(timed) if !timed.is_modified() => match &timed.action {
-            tree::Action::Expr(tree::Expr { kind: tree::ExprKind::Name(name), .. }) => Some((name, clause.span)),
-            _ => None,
-        },
-        _ => None,
     }
 }
 

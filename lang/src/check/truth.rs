@@ -1,34 +1,25 @@
 //! What the expectations of a test speak of: the truth that only the simulator knows, and what the mission has reported.
 
-use super::expr::article;
 use super::{Checker, Def};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{
-    Builtin, Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, TextPart, TrueInput, Var, VarKind,
-};
+use crate::hir::{Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, TrueInput, Var, VarKind};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_wording::listed;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What stands after `truth`, beside the inputs.
 const TRUTHS: [&str; 7] = ["position", "nearest_source", "source", "start", "deepest", "depth_at", "beacon"];
-/// The questions for a report.
-const QUESTIONS: [&str; 6] =
-    ["reported", "reported_at", "has_reported", "last_reported", "last_reported_at", "times_reported"];
 
 /// No run lasts longer, s: three years.
 const RUN_MAX_S: f64 = 1e8;
 
 /// Nothing moves faster, m/s.
 const SPEED_MAX: f64 = 1e4;
-
-/// No run reports more often: so many lines in each of its ticks.
-const REPORTS_MAX: f64 = 1e12;
 
 /// What is said without a source.
 const NO_SOURCE: &str = "the scenario has no source";
@@ -45,9 +36,9 @@ pub(super) struct TestScope {
     /// The mission that it runs.
     pub mission: usize,
     /// The types of what that reports, by name.
-    reports: Rc<Reports>,
+    pub reports: Rc<Reports>,
     /// The variables that hold what is asked of a report, by its name.
-    report_vars: BTreeMap<(ReportPart, String), usize>,
+    pub report_vars: BTreeMap<(ReportPart, String), usize>,
     /// The parameters of the mission that are spoken of, and the variables of their values.
     pub params: Vec<(usize, usize)>,
     /// What its expectations speak of.
@@ -74,6 +65,7 @@ impl<'t> Checker<'t> {
             reasons: Vec::new(),
             areas: (0..areas).map(|_| var(self, "an area of the mission", Type::Area)).collect(),
             reports: Vec::new(),
+            counts: Vec::new(),
             sources: Vec::new(),
             beacon: None,
             inputs: Vec::new(),
@@ -317,205 +309,5 @@ impl<'t> Checker<'t> {
             test.names.sources.push((name, id));
         }
         self.taken_for_granted(id, without, span)
-    }
-
-    /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether; with `last_`
-    /// the last of its reports, and `times_reported("source")` how many there were. Where no `has_reported` shows that there is one, an
-    /// expectation without such a report fails, and says so.
-    pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
-        self.test.as_ref()?;
-        if name == "aborted" {
-            return Some(self.aborted_for(args, span));
-        }
-        if !QUESTIONS.contains(&name) {
-            return None;
-        }
-        let asks_for_value = matches!(name, "reported" | "last_reported");
-        if asks_for_value && args.len() == 2 {
-            let Some([text, label]) = self.positional::<2>(name, args, span) else { return Some(self.unknown(span)) };
-            let (what, label_text) = (self.plain_text(&text), self.plain_text(&label));
-            return Some(self.reported_value(&what, (&label_text, label.span), name == "reported", span));
-        }
-        if asks_for_value && args.len() > 2 {
-            let message =
-                format!("`{name}` takes the name of a report and a label of it, not {} arguments", args.len());
-            let finding = Diagnostic::error(Code::ArgsMany, span, message);
-            self.report(finding.help(format!("write `{name}(\"NAME\")` or `{name}(\"NAME\", \"LABEL\")`")));
-            return Some(self.unknown(span));
-        }
-        let Some([text]) = self.positional::<1>(name, args, span) else { return Some(self.unknown(span)) };
-        let what = self.plain_text(&text);
-        let sites = self.test.as_ref().and_then(|test| test.reports.get(&what).cloned()).unwrap_or_default();
-        let is_place = |ty: &Type| self.types.shape(ty).first_point().is_some();
-        let values: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get("")).collect();
-        // What is reported as a place each time is one whenever it was reported.
-        let all_places = values.iter().copied().all(is_place);
-        if asks_for_value && !values.is_empty() && !values.iter().copied().any(is_place) {
-            return Some(self.reported_value(&what, ("", text.span), name == "reported", span));
-        }
-        let none = format!("nothing was reported as \"{what}\"");
-        let no_place = |which: &str| format!("the {which} report \"{what}\" has no place, or there is none");
-        let part = match name {
-            "times_reported" => {
-                let count = self.report_var(&what, ReportPart::Count, text.span);
-                return Some(self.variable(count, span));
-            }
-            "has_reported" => return Some(self.has_reported(&what, all_places, text.span, span)),
-            "reported_at" => ReportPart::FirstTime,
-            "last_reported_at" => ReportPart::LastTime,
-            "last_reported" => ReportPart::LastPlace,
-            _ => ReportPart::FirstPlace,
-        };
-        // Whether it was reported is known with when.
-        let without = match (&part, all_places) {
-            (ReportPart::FirstPlace, false) => no_place("first"),
-            (ReportPart::LastPlace, false) => no_place("last"),
-            _ => none,
-        };
-        let var = self.report_var(&what, part, text.span);
-        Some(self.taken_for_granted(var, without, span))
-    }
-
-    /// `aborted("far outside")`: whether that aborted the mission. What the machine says by itself begins with the name of an input.
-    fn aborted_for(&mut self, args: &[tree::Arg], span: Span) -> Expr {
-        let Some([text]) = self.positional::<1>("aborted", args, span) else { return self.unknown(span) };
-        let (why, Some(mission)) = (self.plain_text(&text), self.test.as_ref().map(|test| test.mission)) else {
-            return self.unknown(span);
-        };
-        // That it is no text has been told.
-        if why.is_empty() {
-            return self.unknown(span);
-        }
-        let reasons = self.hir.abort_reasons(mission);
-        let is_plain = |parts: &[TextPart]| parts.iter().all(|part| matches!(part, TextPart::Literal(_)));
-        let plain = |parts: &[TextPart]| {
-            let literal =
-                |part: &TextPart| if let TextPart::Literal(text) = part { text.clone() } else { String::new() };
-            parts.iter().map(literal).collect::<String>()
-        };
-        let all_plain = reasons.iter().all(|parts| is_plain(parts));
-        let known: BTreeSet<String> = reasons.iter().map(|parts| plain(parts)).collect();
-        if all_plain && !known.contains(&why) && !why.starts_with('`') {
-            let finding =
-                Diagnostic::error(Code::TestsReport, text.span, format!("nothing aborts the mission with \"{why}\""));
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            self.report(match self.nearest(&why, known.iter().copied()) {
-                Some(near) => finding.help(format!("did you mean \"{near}\"?")),
-                None if known.is_empty() => {
-                    finding.help("no `abort \"WHY\"` stands in it; `expect aborted` asks for no reason")
-                }
-                None => finding.help(format!("it may be aborted with \"{}\"", known.join("\", \""))),
-            });
-            return self.unknown(span);
-        }
-        let id = self.declare_hidden(format!("aborted \"{why}\""), VarKind::Signal, Type::Bool, span);
-        if let Some(test) = &mut self.test {
-            test.names.reasons.push((why, id));
-        }
-        self.variable(id, span)
-    }
-
-    /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in the first report of a name or in the last.
-    fn reported_value(&mut self, what: &str, (label, at): (&str, Span), first: bool, span: Span) -> Expr {
-        let sites = self.test.as_ref().and_then(|test| test.reports.get(what).cloned()).unwrap_or_default();
-        let types: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get(label)).collect();
-        let which = if first { "first" } else { "last" };
-        let time = if first { ReportPart::FirstTime } else { ReportPart::LastTime };
-        // Whether there is such a report at all is known with when; a name that nothing reports is told there.
-        let when = self.report_var(what, time, span);
-        let Some(ty) = types.first().map(|ty| (*ty).clone()) else {
-            if !sites.is_empty() {
-                let message = format!("what is reported as \"{what}\" has no label \"{label}\"");
-                let finding = Diagnostic::error(Code::TestsReport, at, message);
-                let labels: Vec<&str> = sites.iter().flat_map(BTreeMap::keys).map(String::as_str).collect();
-                let labels: BTreeSet<&str> = labels.into_iter().filter(|label| !label.is_empty()).collect();
-                self.report(match labels.is_empty() {
-                    true => finding.help("it has none: `report \"NAME\": VALUE, label: VALUE` gives it some"),
-                    false => finding.help(format!("it has {}", listed(&Vec::from_iter(labels)))),
-                });
-            }
-            return self.unknown(span);
-        };
-        let another = types.iter().find(|other| ***other != ty).map(|other| self.type_name(other));
-        if another.is_some() || *ty.present() == Type::Text {
-            let name = self.type_name(&ty);
-            let message = match another {
-                Some(other) => format!("this is reported as {} here, as {} there", article(&name), article(&other)),
-                None => format!("what is reported is {}, and no two texts can be compared", article(&name)),
-            };
-            let finding = Diagnostic::error(Code::TestsReport, at, message);
-            self.report(finding.help("`has_reported` tells whether it was reported, `reported_at` when"));
-            return self.unknown(span);
-        }
-        let part = if first { ReportPart::FirstValue } else { ReportPart::LastValue };
-        let var = self.report_var_of(what, part(label.to_string()), ty.optional(), span);
-        if types.len() < sites.len() {
-            let without = format!("the {which} report \"{what}\" has no \"{label}\", or there is none");
-            return self.taken_for_granted(var, without, span);
-        }
-        self.taken_for_granted(when, format!("nothing was reported as \"{what}\""), span);
-        self.variable(var, span).unwrapped()
-    }
-
-    /// Whether something was reported: then its first report and its last are known, and their places, where each is one.
-    fn has_reported(&mut self, what: &str, all_places: bool, named: Span, span: Span) -> Expr {
-        let parts: &[ReportPart] = match all_places {
-            true => &[ReportPart::FirstTime, ReportPart::FirstPlace, ReportPart::LastTime, ReportPart::LastPlace],
-            false => &[ReportPart::FirstTime, ReportPart::LastTime],
-        };
-        let known: Vec<Expr> = parts
-            .iter()
-            .map(|part| {
-                let var = self.report_var(what, part.clone(), named);
-                self.is_known(var, span)
-            })
-            .collect();
-        let both = |a: Expr, b: Expr| self.operation(Builtin::And, vec![a, b], Type::Bool, span);
-        known.into_iter().reduce(both).unwrap_or_else(|| self.unknown(span))
-    }
-
-    /// The value of something that may be absent: unless it is known to be there, the expectation fails without it.
-    fn taken_for_granted(&mut self, id: usize, without: String, span: Span) -> Expr {
-        let value = self.variable(id, span);
-        if value.ty.is_optional()
-            && let Some(test) = &mut self.test
-        {
-            test.needs.push((id, without));
-        }
-        value.unwrapped()
-    }
-
-    /// Whether something is there, although it may be known already.
-    fn is_known(&self, id: usize, span: Span) -> Expr {
-        let ty = self.scope.vars[id].ty.clone();
-        let value = Expr { kind: ExprKind::Var(id), ty, span, range: Interval::ANY };
-        self.make(ExprKind::IsPresent(Box::new(value)), Type::Bool, span)
-    }
-
-    /// The variable that holds what is asked of a report: one for each name.
-    fn report_var(&mut self, what: &str, part: ReportPart, span: Span) -> usize {
-        let ty = match part {
-            ReportPart::FirstTime | ReportPart::LastTime => Type::Quantity(Dimension::TIME).optional(),
-            ReportPart::Count => Type::Int,
-            _ => Type::Point.optional(),
-        };
-        self.report_var_of(what, part, ty, span)
-    }
-
-    /// The same, of a type that the reports have.
-    fn report_var_of(&mut self, what: &str, part: ReportPart, ty: Type, span: Span) -> usize {
-        let key = (part.clone(), what.to_string());
-        if let Some(id) = self.test.as_ref().and_then(|test| test.report_vars.get(&key)) {
-            return *id;
-        }
-        let id = self.declare_hidden(format!("report \"{what}\" {part:?}"), VarKind::Signal, ty, span);
-        if part == ReportPart::Count {
-            self.scope.vars[id].range = Interval::new(0.0, REPORTS_MAX);
-        }
-        if let Some(TestScope { names, report_vars, .. }) = &mut self.test {
-            names.reports.push((part, what.to_string(), id));
-            report_vars.insert(key, id);
-        }
-        id
     }
 }

@@ -14,7 +14,8 @@ pub use first::{First, is_control};
 pub use position::middle;
 pub use same::{mentions_done, same_condition, same_value};
 pub use simulated::{
-    ClauseArg, ClauseUse, Expect, OUTCOMES, ReportPart, Row, Scenario, Test, TestNames, TrueInput, When, test_file_name,
+    ClauseArg, ClauseUse, Counted, Expect, OUTCOMES, ReportPart, Row, Scenario, Test, TestNames, TrueInput, When,
+    test_file_name,
 };
 pub use walk::{activity_children, block_children, calls_in, children};
 

@@ -104,6 +104,8 @@ pub struct TestNames<T> {
     pub areas: Vec<T>,
     /// What was reported, by name.
     pub reports: Vec<(ReportPart, String, T)>,
+    /// How often something was done, by what it is called.
+    pub counts: Vec<(Counted, String, T)>,
     /// The true place of a source, by its name, if there is one.
     pub sources: Vec<(String, T)>,
     /// Where the beacon truly is, if there is one and that is asked for.
@@ -173,6 +175,15 @@ impl TrueInput {
     }
 }
 
+/// What a test counts besides reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// How often a payload was asked, by its action.
+    Asks,
+    /// How many samples of an input were recorded, by its name.
+    Recorded,
+}
+
 /// What a test asks of a report.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReportPart {
@@ -232,6 +243,7 @@ impl<T: Copy> TestNames<T> {
             reasons: self.reasons.iter().map(|(why, x)| (why.clone(), f(*x))).collect(),
             areas: self.areas.iter().map(|x| f(*x)).collect(),
             reports: self.reports.iter().map(report).collect(),
+            counts: self.counts.iter().map(|(counted, name, x)| (*counted, name.clone(), f(*x))).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
             beacon: self.beacon.map(&f),
             inputs: self.inputs.iter().map(|(input, x)| (*input, f(*x))).collect(),

@@ -47,6 +47,14 @@ impl Hir {
         asks
     }
 
+    /// The names of the inputs that a mission and all that it calls record, each once.
+    pub fn recorded(&self, mission: ActivityId) -> Vec<String> {
+        let recordings = self.called_from(mission).into_iter().flat_map(|id| &self.activities[id].recordings);
+        let names =
+            recordings.flat_map(|recording| &recording.inputs).map(|(input, _)| self.inputs[*input].name.clone());
+        names.collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
     /// Why a mission and all that it calls may abort it, as far as they say so.
     pub fn abort_reasons(&self, mission: ActivityId) -> Vec<&[TextPart]> {
         let mut reasons = Vec::new();

@@ -166,7 +166,7 @@ struct Judged {
 fn judge(plan: &Plan, test: &TestProgram, row: &RowProgram, run: TestRun) -> Result<Judged, PlanError> {
     let seed = run.seed;
     let (mut driver, start) = Driver::simulated(plan, seed)?;
-    let expectations = Expectations::new(plan, test, row, seed, start);
+    let expectations = Expectations::new(plan, test, row, seed, (start, driver.vehicle().measurements()));
     let trace = test.snapshots.contains(&seed).then(|| Trace::new(plan, seed, driver.vehicle().measurements()));
     let mut recorders = (expectations, trace);
     driver.fold(&mut recorders, &AtomicBool::new(false));

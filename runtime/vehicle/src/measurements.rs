@@ -127,9 +127,9 @@ measurements! {
     /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.
     VEHICLE_MODE: MeasurementInfo::of("vehicle_mode", Quantity::Word);
     /// The temperature of the water.
-    TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature).of_instrument("ctd");
+    TEMPERATURE: MeasurementInfo::of("temperature", Quantity::Temperature).of_instrument("ctd").can_fail();
     /// The practical salinity of the water.
-    SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity).of_instrument("ctd");
+    SALINITY: MeasurementInfo::of("salinity", Quantity::Salinity).of_instrument("ctd").can_fail();
     /// The date, by the vehicle's clock.
     UTC: MeasurementInfo::of("utc", Quantity::Date).of_instrument("date");
     /// Where a beacon is that the vehicle hears: as far from where it believes to be as it hears it.

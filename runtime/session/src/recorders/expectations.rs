@@ -1,16 +1,17 @@
 //! What a test expects of a run, looked at as the run goes.
 
 use super::Recorder;
+use super::recorded::Recorded;
 use super::results::{Reported, Results};
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::hir::{OUTCOMES, ReportPart, TrueInput, When};
+use albacore_lang::hir::{Counted, OUTCOMES, ReportPart, TrueInput, When};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
-use albacore_machine::{Evaluation, Outcome};
+use albacore_machine::{Evaluation, Event, Outcome};
 use albacore_program::{ActivityId, Display, Shape, number};
 use albacore_sim::Scenario;
 use albacore_trace::{Step, TickRecord, areas};
-use albacore_vehicle::{Truth, seconds};
+use albacore_vehicle::{Measurement, Truth, seconds};
 
 /// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
 pub(crate) struct Expectations<'t> {
@@ -21,6 +22,10 @@ pub(crate) struct Expectations<'t> {
     truth: Truth,
     /// The words of the mission's areas, one after another.
     areas: Vec<f64>,
+    /// How often each of what the program asks of payloads was asked.
+    asked: Vec<u64>,
+    /// What is recorded, where a test asks for that.
+    recorded: Option<Recorded>,
     /// The names of the active activities within the mission, as the trace tells them.
     active: String,
     /// For each expectation whether there was a moment to look at it.
@@ -31,19 +36,28 @@ pub(crate) struct Expectations<'t> {
 
 impl<'t> Expectations<'t> {
     /// Of a run of a row with a seed, that starts there.
-    pub fn new(plan: &Plan, test: &'t TestProgram, row: &RowProgram, seed: u64, start: Point) -> Self {
+    pub fn new(
+        plan: &Plan,
+        test: &'t TestProgram,
+        row: &RowProgram,
+        seed: u64,
+        (start, delivered): (Point, &[Measurement]),
+    ) -> Self {
         let mut evaluation = Evaluation::new(&test.program);
         for (code, to, words) in &row.params {
             evaluation.run(&test.program, code.entry);
             let value = evaluation.words(code.value, *words).to_vec();
             evaluation.set(*to, &value);
         }
+        let counts_recorded = test.slots.counts.iter().any(|(counted, ..)| *counted == Counted::Recorded);
         Expectations {
             test,
             results: Results::new(plan, seed, Some(start)),
             evaluation,
             truth: Truth { position: start, ..Truth::default() },
             areas: Vec::new(),
+            asked: vec![0; plan.program.asks.len()],
+            recorded: counts_recorded.then(|| Recorded::new(plan, delivered)),
             active: String::new(),
             looked: vec![false; test.expects.len()],
             breaches: vec![None; test.expects.len()],
@@ -180,6 +194,14 @@ impl<'t> Expectations<'t> {
         for (name, slot) in &slots.sources {
             evaluation.set(*slot, &if_any(results.source(name)));
         }
+        for (counted, name, slot) in &slots.counts {
+            let asks = || results.plan.program.asks.iter().zip(&self.asked).find(|(ask, _)| *ask == name);
+            let count = match counted {
+                Counted::Asks => asks().map_or(0, |(_, count)| *count),
+                Counted::Recorded => self.recorded.as_ref().map_or(0, |recorded| recorded.samples(name)),
+            };
+            evaluation.set(*slot, &[count as f64]);
+        }
         for (part, name, slot) in &slots.reports {
             let told = results.reports.named(name);
             if let ReportPart::FirstValue(label) | ReportPart::LastValue(label) = part {
@@ -212,6 +234,16 @@ impl<'t> Expectations<'t> {
 impl Recorder for Expectations<'_> {
     fn take(&mut self, record: &TickRecord) {
         self.results.take(record);
+        if let Some(recorded) = &mut self.recorded {
+            recorded.take(record);
+        }
+        for event in &record.events {
+            if let Event::Asked(action) = event
+                && let Some(count) = self.asked.get_mut(*action as usize)
+            {
+                *count += 1;
+            }
+        }
         self.truth = record.truth.unwrap_or(self.truth);
         if !record.areas.is_empty() {
             self.areas.clone_from(&record.areas);

@@ -58,6 +58,8 @@ struct Column {
     measurement: Option<usize>,
     /// The first tick after the last row that told it: no sample stands twice.
     told: u64,
+    /// How many samples of it stand in the table.
+    samples: u64,
 }
 
 impl Recorded {
@@ -83,7 +85,12 @@ impl Recorded {
                 let known = columns.iter().position(|column| column.input == input);
                 own.push(known.unwrap_or(columns.len()));
                 if known.is_none() {
-                    columns.push(Column { input, measurement: measured(&program.inputs[input].name), told: 0 });
+                    columns.push(Column {
+                        input,
+                        measurement: measured(&program.inputs[input].name),
+                        told: 0,
+                        samples: 0,
+                    });
                     labels.push(fields);
                 }
             }
@@ -127,6 +134,13 @@ impl Recorded {
     /// How many rows it has, and how many it would have besides, were it not full.
     pub fn rows(&self) -> (u64, u64) {
         (self.rows, self.left_out)
+    }
+
+    /// How many samples of an input it holds.
+    pub fn samples(&self, input: &str) -> u64 {
+        let of_input =
+            |column: &&Column| self.program.inputs.get(column.input).is_some_and(|known| known.name == input);
+        self.columns.iter().find(of_input).map_or(0, |column| column.samples)
     }
 
     fn input(&self, measurement: usize) -> Option<&Input> {
@@ -179,9 +193,11 @@ impl Recorded {
         let from = recorded.and_then(|at| self.due_since(at, due)).unwrap_or(recent);
         let depth = self.since(self.place.depth, from).map(|(_, reading)| number::digits(reading[0]));
         cells::put(&mut row, &depth.unwrap_or_default());
+        let mut sampled = Vec::new();
         for (at, column) in self.columns.iter().enumerate() {
             let sample = self.due_since(at, due).and_then(|since| self.since(column.measurement, since));
             let input = &self.program.inputs[column.input];
+            sampled.extend(sample.map(|_| at));
             cells::cells(&mut row, input, sample.map(|(_, reading)| reading), self.frame);
         }
         row.push('\n');
@@ -190,6 +206,7 @@ impl Recorded {
         } else {
             self.text.push_str(&row);
             self.rows += 1;
+            sampled.into_iter().for_each(|at| self.columns[at].samples += 1);
         }
     }
 
