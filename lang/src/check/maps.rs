@@ -56,7 +56,11 @@ impl Checker<'_> {
                 };
                 let finding =
                     Diagnostic::error(Code::TypesFor, map.span, format!("only a map has places, this is {what}"));
-                self.report(finding.help(format!("leave `at {}` out", place.node)));
+                let place = &place.node;
+                self.report(finding.help(match other {
+                    Type::List(_, n) => format!("leave `at {place}` out; to number them write `for {place} in 0..<{n}`, and `list[{place}]` in it"),
+                    _ => format!("leave `at {place}` out"),
+                }));
                 Type::Unknown
             }
         };

@@ -350,7 +350,7 @@ impl<'t> Checker<'t> {
         }
         match (value.ty.clone(), member.node.as_str()) {
             (Type::Vector(d), "dot") => self.dot(value, d, args, span),
-            (Type::Area, "rows") => self.only_walked("rows", "write `for row in area.rows(step) { … }`", span),
+            (Type::Area, "rows") => self.only_walked("rows", "write `for row in area.rows(step) { … }`; how many there are counts a `var` of a function that walks them", span),
             (Type::Area, name @ ("contains" | "run" | "corner")) => self.area_method(value, name, args, span),
             (Type::List(inner, n), "top") => {
                 let Some([count]) = self.positional::<1>("top", args, span) else { return self.unknown(span) };

@@ -117,6 +117,9 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
     if first == "expect" && last == "never" {
         return only("write `expect always not (…)`");
     }
+    if first == "expect" && matches!(last, "eventually" | "sometime" | "sometimes" | "ever") {
+        return only("write `expect once …`: at some tick of each run");
+    }
     if first == "run" && before.contains(" seeds ") && rest.starts_with(',') {
         return only("seeds are a range, with both its ends: `seeds 1..3`");
     }
