@@ -12,7 +12,7 @@ use crate::disk::{self, not_written};
 use crate::exit::Exit;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::{interruption, message, output};
-use albacore_session::campaign::{Campaign as MissionCampaign, Tally};
+use albacore_session::campaign::{Campaign as MissionCampaign, Delivery, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
 use provenance::Provenance;
@@ -100,8 +100,12 @@ impl Campaign {
         self.warn(&mut table);
         let bar = self.bar(table.rows());
         let mut trouble = None;
-        let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |row| {
-            if let Err(error) = table.add(self.seeds, &row) {
+        let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |delivery| {
+            let done = match delivery {
+                Delivery::Row(row) => table.add(self.seeds, &row),
+                Delivery::Nothing => table.settle_when_due(),
+            };
+            if let Err(error) = done {
                 trouble = Some(error);
                 return ControlFlow::Break(());
             }

@@ -59,6 +59,11 @@ impl DigestedFile {
         self.file.flush().map_err(|error| TableError::Disk(self.path.clone(), error))
     }
 
+    /// The same for what was written more than a second ago.
+    pub fn settle_when_due(&mut self) -> Result<(), TableError> {
+        self.file.sync_when_due().map_err(|error| TableError::Disk(self.path.clone(), error))
+    }
+
     /// What it holds: what was written.
     pub fn text(&mut self) -> Result<Vec<u8>, TableError> {
         if !self.is_as_left()? {

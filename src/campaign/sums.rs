@@ -70,6 +70,11 @@ impl Sums {
         self.file.settle()
     }
 
+    /// The same for what was added more than a second ago.
+    pub fn settle_when_due(&mut self) -> Result<(), TableError> {
+        self.file.settle_when_due()
+    }
+
     /// An error if they are not as they were written.
     pub fn is_whole(&mut self) -> Result<(), TableError> {
         self.file.text().map(drop)

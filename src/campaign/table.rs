@@ -364,6 +364,14 @@ impl Table {
         }
     }
 
+    /// The same for what was added more than a second ago.
+    pub fn settle_when_due(&mut self) -> Result<(), TableError> {
+        match &mut self.state {
+            State::Adding { file, sums, .. } => file.settle_when_due().and_then(|()| sums.settle_when_due()),
+            State::Mending { .. } => Ok(()),
+        }
+    }
+
     /// What the rows come to, when all are written.
     pub fn tally(&mut self, columns: &Columns, origin: &Provenance) -> Result<Tally, TableError> {
         match provenance::read(&self.path) {

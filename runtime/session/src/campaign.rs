@@ -21,10 +21,22 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
+use std::time::Duration;
 
 /// So many runs a thread may be ahead of the oldest that is not over yet: enough that no core waits for a long run, and
 /// a bound to what is kept for later.
 const AHEAD_PER_THREAD: usize = 32;
+
+/// So long nothing is delivered at most while rows are awaited.
+const QUIET: Duration = Duration::from_millis(250);
+
+/// What a campaign delivers.
+pub enum Delivery {
+    /// The next row.
+    Row(Row),
+    /// No row: a moment in which what was written before may go to the disk.
+    Nothing,
+}
 
 /// A mission in a scenario, to be run with many seeds.
 pub struct Campaign {
@@ -45,14 +57,14 @@ impl Campaign {
     }
 
     /// Runs every seed and delivers its row: in the order in which they are given, each as soon as it and all before it are over,
-    /// so that the rows do not depend on the number of threads. Without `threads` there is one for each core. Whoever
+    /// so that the rows do not depend on the number of threads, and some times a second at least nothing. Without `threads` there is one for each core. Whoever
     /// raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
     pub fn run(
         &self,
         seeds: impl Iterator<Item = u64> + Clone,
         threads: Option<usize>,
         stop: &AtomicBool,
-        mut deliver: impl FnMut(Row) -> ControlFlow<()>,
+        mut deliver: impl FnMut(Delivery) -> ControlFlow<()>,
     ) -> Result<bool, String> {
         let pool = crate::threads::pool(threads);
         let pool = pool.map_err(|error| error.to_string())?;
@@ -73,10 +85,14 @@ impl Campaign {
                         break row;
                     }
                     // `start` holds a sender: there is always someone to hear from.
-                    early.extend(receiver.recv().ok());
+                    early.extend(receiver.recv_timeout(QUIET).ok());
+                    if deliver(Delivery::Nothing).is_break() {
+                        stop.store(true, Ordering::Relaxed);
+                        return false;
+                    }
                 };
                 let Some(row) = row else { return false };
-                if deliver(row).is_break() {
+                if deliver(Delivery::Row(row)).is_break() {
                     stop.store(true, Ordering::Relaxed);
                     return false;
                 }

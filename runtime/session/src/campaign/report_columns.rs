@@ -118,9 +118,9 @@ impl Part {
             None | Some(Value::Null) => String::new(),
             Some(Value::String(text)) => text.clone(),
             Some(Value::Number(number)) if number.is_f64() => {
-                let is_in_metres =
-                    self.unit.as_deref() == Some("m") || self.coordinate.is_some_and(|c| c.ends_with("_m"));
-                let cell = |x| if is_in_metres { number::fixed(x, METRE_DECIMALS) } else { nine_digits(x) };
+                // A place is told to a millimetre, whatever else with nine digits.
+                let is_of_place = self.coordinate.is_some_and(|c| c.ends_with("_m"));
+                let cell = |x| if is_of_place { number::fixed(x, METRE_DECIMALS) } else { nine_digits(x) };
                 number.as_f64().map(cell).unwrap_or_default()
             }
             Some(other) => other.to_string(),
@@ -194,7 +194,7 @@ mod tests {
         );
         // Other statements report under the same name, a length and a place.
         let other = cells(&Report { value: json!({ "value": 4.0, "unit": "m" }), site: 1, ..Report::default() });
-        assert_eq!(other, ["", "", "", "", "", "", "", "", "4.000", "", ""]);
+        assert_eq!(other, ["", "", "", "", "", "", "", "", "4", "", ""]);
         let labelled = serde_json::from_value(json!({ "number": { "north_m": 1.0, "east_m": 2.0 } })).unwrap();
         let third = cells(&Report { labelled, site: 2, ..Report::default() });
         assert_eq!(third, ["", "", "", "", "", "", "", "", "", "1.000", "2.000"]);
