@@ -26,10 +26,8 @@ impl<'t> Checker<'t> {
     /// expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
-        if name == "aborted" {
-            return Some(self.aborted_for(args, span));
-        }
         match name {
+            "aborted" => return Some(self.aborted_for(args, span)),
             "times_asked" => return Some(self.count_of(Counted::Asks, name, args, span)),
             "times_recorded" => return Some(self.count_of(Counted::Recorded, name, args, span)),
             _ => {}
@@ -124,15 +122,26 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         }
         let reasons = self.hir.abort_reasons(mission);
-        let is_plain = |parts: &[TextPart]| parts.iter().all(|part| matches!(part, TextPart::Literal(_)));
-        let plain = |parts: &[TextPart]| {
-            let literal =
-                |part: &TextPart| if let TextPart::Literal(text) = part { text.clone() } else { String::new() };
-            parts.iter().map(literal).collect::<String>()
+        let written = |parts: &[TextPart]| match parts {
+            [] => (String::new(), true),
+            [TextPart::Literal(text)] => (text.clone(), true),
+            // What stands behind the first value is known when it is told.
+            [TextPart::Literal(text), ..] => (text.clone(), false),
+            [TextPart::Hole(_), ..] => (String::new(), false),
         };
-        let all_plain = reasons.iter().all(|parts| is_plain(parts));
-        let known: BTreeSet<String> = reasons.iter().map(|parts| plain(parts)).collect();
-        if all_plain && !known.contains(&why) && !why.starts_with('`') {
+        let may_be = |parts: &&[TextPart]| {
+            let (text, is_whole) = written(parts);
+            if is_whole { why == text } else { why.starts_with(&text) }
+        };
+        // Such as "no fresh `flow`".
+        let of_machine =
+            why.split('`').nth(1).is_some_and(|name| self.hir.inputs.iter().any(|input| input.name == name));
+        if !of_machine && !reasons.iter().any(may_be) {
+            let told = |parts: &&[TextPart]| {
+                let (text, is_whole) = written(parts);
+                if is_whole { text } else { text + "…" }
+            };
+            let known: BTreeSet<String> = reasons.iter().map(told).collect();
             let finding =
                 Diagnostic::error(Code::TestsReport, text.span, format!("nothing aborts the mission with \"{why}\""));
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
