@@ -33,8 +33,8 @@ pub fn rewrite(path: &Path, was: Option<&str>, text: &str) -> io::Result<u64> {
     Ok(others)
 }
 
-/// What a file is called without its ending, as a text in which no two names are the same: bytes that are no text are written as `%FF`, and
-/// the sign of what looks like one of these as `%25`.
+/// What a file is called without its ending, as a text in which no two names are the same: bytes that are no text, or control whoever shows
+/// them, are written as `%FF`, and the sign of what looks like one of these as `%25`.
 pub fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().as_encoded_bytes();
     let part = |chunk: std::str::Utf8Chunk| {
@@ -43,12 +43,15 @@ pub fn stem(path: &Path) -> String {
     stem.utf8_chunks().map(part).collect()
 }
 
-/// A text in which nothing looks like a byte that is written as `%FF`.
+/// A text in which nothing looks like a byte that is written as `%FF`, and nothing is a control character.
 fn escaped(text: &str) -> String {
     let is_hex = |byte: Option<&u8>| byte.is_some_and(|byte| matches!(byte, b'0'..=b'9' | b'A'..=b'F'));
     let looks_like_one = |at: usize| is_hex(text.as_bytes().get(at + 1)) && is_hex(text.as_bytes().get(at + 2));
     text.char_indices().fold(String::new(), |text, (at, c)| match c {
         '%' if looks_like_one(at) => text + "%25",
+        c if c.is_control() => {
+            c.encode_utf8(&mut [0; 4]).bytes().fold(text, |text, byte| text + &format!("%{byte:02X}"))
+        }
         c => text + c.encode_utf8(&mut [0; 4]),
     })
 }
@@ -419,10 +422,17 @@ mod tests {
     #[cfg(unix)]
     fn no_two_names_are_called_the_same() {
         use std::os::unix::ffi::OsStrExt;
-        let names =
-            [&b"bad\xff.alb"[..], b"bad\xfe.alb", b"bad%FF.alb", b"bad%25FF.alb", b"at 5%.alb", b"depth_\xc3\xa4.alb"];
+        let names = [
+            &b"bad\xff.alb"[..],
+            b"bad\xfe.alb",
+            b"bad%FF.alb",
+            b"bad%25FF.alb",
+            b"at 5%.alb",
+            b"depth_\xc3\xa4.alb",
+            b"a\n\x1b[31mb.alb",
+        ];
         let stems: Vec<String> = names.iter().map(|name| stem(Path::new(std::ffi::OsStr::from_bytes(name)))).collect();
-        assert_eq!(stems, ["bad%FF", "bad%FE", "bad%25FF", "bad%2525FF", "at 5%", "depth_\u{e4}"]);
+        assert_eq!(stems, ["bad%FF", "bad%FE", "bad%25FF", "bad%2525FF", "at 5%", "depth_\u{e4}", "a%0A%1B[31mb"]);
     }
 
     /// What somebody saved while a text was laid out is kept.

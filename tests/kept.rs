@@ -187,6 +187,9 @@ fn lost(out: &Path, outcome: &str) -> Vec<String> {
     assert_eq!(record["outcome"], outcome);
     let lost = record["lost"].as_object().unwrap();
     assert!(lost.values().all(|why| why.as_str().is_some_and(|why| !why.is_empty())), "{record}");
+    // No digest is told of a file that is not there.
+    let is_told = |name: &&String| *name != "journal" && record["files"][name.as_str()].is_string();
+    assert!(!lost.keys().any(|name| is_told(&name)), "{record}");
     lost.keys().cloned().collect()
 }
 

@@ -161,6 +161,7 @@ impl Record {
 
     /// A file is not whole, or not there.
     pub fn loses(&mut self, name: &'static str, why: impl Display) {
+        self.files.remove(name);
         self.lost.insert(name, why.to_string());
     }
 
