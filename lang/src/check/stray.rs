@@ -22,17 +22,23 @@ impl<'t> Checker<'t> {
         true
     }
 
-    /// Says where a statement of a table belongs.
-    pub(super) fn stray_statement(&mut self, clause: &Clause) {
-        let help = match clause.kind {
-            // It stands behind a statement, and that is what is wrong.
-            ClauseKind::With(_) => return,
-            ClauseKind::Let { .. } | ClauseKind::Var { .. } => {
-                "what changes is a `memory` of the table, what does not a `const` of the file or a parameter"
-            }
-            _ => "move it into a behavior, and name that behavior in the table",
-        };
-        self.misplaced(clause.span, NO_STATEMENTS, help);
+    /// Says where the statements among the clauses of a table belong.
+    pub(super) fn stray_statements(&mut self, clauses: &[&Clause]) {
+        for (nth, clause) in clauses.iter().enumerate() {
+            let (message, help) = match clause.kind {
+                // Behind a statement that is what is wrong, and has been told.
+                ClauseKind::With(_) if nth > 0 => continue,
+                ClauseKind::With(_) => {
+                    ("a `with` of a switching table stands before its behaviors and rules", "move it up there")
+                }
+                ClauseKind::Let { .. } | ClauseKind::Var { .. } => (
+                    NO_STATEMENTS,
+                    "what changes is a `memory` of the table, what does not a `const` of the file or a parameter",
+                ),
+                _ => (NO_STATEMENTS, "move it into a behavior, and name that behavior in the table"),
+            };
+            self.misplaced(clause.span, message, help);
+        }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::ends::{Known, can_end};
 use super::expr::article;
-use super::{Checker, Setting, flow, stray};
+use super::stray::{NO_STATEMENTS, alone};
+use super::{Checker, Setting, flow};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{self, Body, Rule, Target, mentions_done, same_condition};
@@ -36,7 +37,7 @@ impl<'t> Checker<'t> {
         let mut behaviors = Vec::new();
         let mut start = None;
         let mut unstarted = None;
-        let mut written = Vec::new();
+        let (mut written, mut stray) = (Vec::new(), Vec::new());
         for clause in clauses {
             match &clause.kind {
                 ClauseKind::Behavior(b) => {
@@ -55,16 +56,17 @@ impl<'t> Checker<'t> {
                     }
                 }
                 ClauseKind::Rule(rule) => written.push(rule),
-                _ if stray::alone(clause).is_some() && unstarted.is_none() => unstarted = stray::alone(clause),
-                _ => self.stray_statement(clause),
+                _ if alone(clause).is_some() && unstarted.is_none() => unstarted = alone(clause),
+                _ => stray.push(*clause),
             }
         }
+        self.stray_statements(&stray);
         if let Some((name, span)) = unstarted {
             if start.is_none() {
                 start = names.index(name).map(|i| names.all[i]);
             }
             let help = format!("write `start {name}`, if it begins with that behavior");
-            self.misplaced(span, stray::NO_STATEMENTS, &help);
+            self.misplaced(span, NO_STATEMENTS, &help);
         }
         let mut room = Room::of(&names);
         let mut rules = Vec::new();
