@@ -38,10 +38,7 @@ impl<'t> Checker<'t> {
                     return self.unknown(span);
                 }
                 let (a, b) = (self.expr(left, None), self.expr(right, None));
-                let is_equality = matches!(op.node, Binary::Eq | Binary::Ne);
-                let meant = |c: &Self, e, beside: &Expr| if is_equality { c.as_variant(e, beside) } else { None };
-                let variants = (meant(self, left, &b), meant(self, right, &a));
-                let (a, b) = (variants.0.unwrap_or(a), variants.1.unwrap_or(b));
+                let (a, b) = self.as_meant(a, b);
                 if a.ty == Type::Unknown || b.ty == Type::Unknown {
                     return self.unknown(span);
                 }
@@ -54,7 +51,7 @@ impl<'t> Checker<'t> {
                     return self.unknown(span);
                 }
                 let is_of_one_kind = !matches!(op.node, Binary::Mul | Binary::Div | Binary::Pow | Binary::Toward);
-                let (a, b) = if is_of_one_kind { self.as_measured(with_zero(a, b)) } else { (a, b) };
+                let (a, b) = if is_of_one_kind { with_zero(a, b) } else { (a, b) };
                 let of_constants = [&a, &b].into_iter().all(|e| matches!(e.kind, ExprKind::Number(_)));
                 let value = match op.node {
                     Binary::Add => self.sum(op, a, b, span),
@@ -69,15 +66,6 @@ impl<'t> Checker<'t> {
                 if of_constants { self.sensible_result(value) } else { value }
             }
         }
-    }
-
-    /// A name beside a value of an enum, as the variant of that enum: in a test `refused` is an outcome, and beside how an override ended
-    /// what that can be.
-    fn as_variant(&self, e: &tree::Expr, beside: &Expr) -> Option<Expr> {
-        let (tree::ExprKind::Name(name), Type::Enum(id)) = (&e.kind, beside.ty.present()) else { return None };
-        let variant = self.types.enums[*id].variants.iter().position(|variant| variant == name)?;
-        let kind = ExprKind::Number(variant as f64);
-        Some(Expr { kind, ty: Type::Enum(*id), span: e.span, range: Interval::ANY })
     }
 
     /// `a < b < c` reads like mathematics and means something else.

@@ -154,22 +154,31 @@ impl<'t> Checker<'t> {
         id
     }
 
-    /// Two sides of which one is `truth.depth` and the other a depth, or of altitudes: both are, so that they can be subtracted and compared.
-    pub(super) fn as_measured(&self, (a, b): (Expr, Expr)) -> (Expr, Expr) {
-        let true_type = |e: &Expr| {
-            let (ExprKind::Var(id), Some(test)) = (&e.kind, &self.test) else { return None };
-            match test.names.inputs.iter().find(|(_, known)| known == id)?.0 {
-                TrueInput::Depth => Some(Type::Depth),
-                TrueInput::Altitude => Some(Type::Altitude),
-                _ => None,
-            }
+    /// Two sides as a test means them: `truth.depth` beside a depth is one, `truth.altitude` beside an altitude, and an outcome beside a value
+    /// that can be called so is that variant.
+    pub(super) fn as_meant(&self, a: Expr, b: Expr) -> (Expr, Expr) {
+        let meant = (self.meant_beside(&a, b.ty.present()), self.meant_beside(&b, a.ty.present()));
+        (meant.0.unwrap_or(a), meant.1.unwrap_or(b))
+    }
+
+    fn meant_beside(&self, e: &Expr, other: &Type) -> Option<Expr> {
+        let (ExprKind::Var(id), Some(test)) = (&e.kind, &self.test) else { return None };
+        if let Type::Enum(of) = other {
+            let outcome = OUTCOMES[test.names.outcomes.iter().position(|known| known == id)?];
+            let variant = self.types.enums[*of].variants.iter().position(|variant| variant == outcome)?;
+            return Some(Expr {
+                kind: ExprKind::Number(variant as f64),
+                ty: other.clone(),
+                span: e.span,
+                range: Interval::ANY,
+            });
+        }
+        let measured = match test.names.inputs.iter().find(|(_, known)| known == id)?.0 {
+            TrueInput::Depth => Type::Depth,
+            TrueInput::Altitude => Type::Altitude,
+            _ => return None,
         };
-        let measured = |e: Expr, beside: &Type| match true_type(&e).filter(|ty| ty == beside.present()) {
-            Some(ty) => Expr { ty, ..e },
-            None => e,
-        };
-        let types = (a.ty.clone(), b.ty.clone());
-        (measured(a, &types.1), measured(b, &types.0))
+        (measured == *other).then(|| Expr { ty: measured, ..e.clone() })
     }
 
     /// Says that there is no such member of `truth`.

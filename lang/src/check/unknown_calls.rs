@@ -9,11 +9,13 @@ use crate::types::Type;
 use albacore_syntax::other_languages;
 
 impl Checker<'_> {
+    /// Says that a behavior is called where a value stands.
     pub(super) fn takes_time(&mut self, name: &str, span: Span) {
         let finding = Diagnostic::error(Code::TimeCall, span, format!("`{name}` takes time: it is no value"));
         self.report(finding.help(format!("call it as a statement, `{name}(…)`, or `let x = {name}(…)`")));
     }
 
+    /// Says that nothing has the name of a call, and what was meant by it.
     pub(super) fn no_such_function(&mut self, name: &str, span: Span, expected: Option<&Type>) {
         if self.use_given(name, span).is_some() {
             return self.takes_time(name, span);
@@ -23,10 +25,10 @@ impl Checker<'_> {
         // No area is round, and elsewhere `circle` is driven.
         let round = (name == "circle" && expected == Some(&Type::Area)).then_some(ROUND);
         let value = round.or_else(|| other_languages::called(name));
-        let takes_time = value.is_none() && self.scope.setting == Setting::Instant;
+        let is_too_long = value.is_none() && self.scope.setting == Setting::Instant;
         let foreign = value.or_else(|| other_languages::help(name));
         let finding = match (foreign, self.nearest(name, known)) {
-            (Some(help), _) if takes_time => {
+            (Some(help), _) if is_too_long => {
                 finding.help(format!("{help}, in the body of a behavior: here everything is instantaneous"))
             }
             (Some(help), _) => finding.help(help),
