@@ -48,22 +48,14 @@ impl Provenance {
         serde_json::from_slice(bytes).map_err(|error| Unread::Wrong(error.to_string()))
     }
 
-    /// All of it that must be the same for a table to be gone on with, in short: no row of another campaign has a checksum that fits.
+    /// All of it that [`Provenance::difference`] compares, in short: no row of another campaign has a checksum that fits.
     pub fn key(&self) -> OriginKey {
+        let digests = |scripts: &[ScriptDigest]| scripts.iter().map(|script| script.digest.clone()).collect::<Vec<_>>();
+        let Provenance { albacore, mission, scenario, scenario_script, set, fault, sources, first_seed, sum: _ } = self;
+        let (own, of_scenario) = (digests(sources), digests(scenario_script.as_slice()));
+        let told = serde_json::json!([albacore, mission, scenario, first_seed, set, fault, own, of_scenario]);
         let mut key = Digest::new();
-        let mut add = |text: &str| {
-            // With its length: no two lists of texts come to the same bytes.
-            key.bytes(&(text.len() as u64).to_le_bytes());
-            key.bytes(text.as_bytes());
-        };
-        [&self.mission, &self.scenario, &self.albacore, &self.first_seed.to_string()]
-            .into_iter()
-            .for_each(|text| add(text));
-        for texts in [&self.set, &self.fault] {
-            add(&texts.len().to_string());
-            texts.iter().for_each(|text| add(text));
-        }
-        self.sources.iter().chain(&self.scenario_script).for_each(|script| add(&script.digest));
+        key.bytes(told.to_string().as_bytes());
         OriginKey(key.to_string())
     }
 

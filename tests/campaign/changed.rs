@@ -27,24 +27,14 @@ fn a_torn_last_line_is_made_whole() {
 /// What the checksums of a table hold of its origin.
 fn key(out: &Path) -> String {
     let origin: Value = serde_json::from_slice(&std::fs::read(out.with_extension("csv.origin")).unwrap()).unwrap();
-    let texts = |name: &str, of: &str| -> Vec<String> {
-        let list = origin[name].as_array().cloned().unwrap_or_default();
-        list.iter().map(|item| if of.is_empty() { item } else { &item[of] }.as_str().unwrap().to_string()).collect()
+    let digests = |scripts: &Value| -> Vec<Value> {
+        let scripts = scripts.as_array().cloned().unwrap_or_else(|| vec![scripts.clone()]);
+        scripts.iter().map(|script| script["digest"].clone()).filter(|digest| !digest.is_null()).collect()
     };
-    let mut key: Vec<String> =
-        ["mission", "scenario", "albacore"].map(|name| origin[name].as_str().unwrap().into()).into();
-    key.push(origin["first_seed"].to_string());
-    for list in [texts("set", ""), texts("fault", "")] {
-        key.push(list.len().to_string());
-        key.extend(list);
-    }
-    key.extend(texts("sources", "digest"));
-    key.extend(origin["scenario_script"]["digest"].as_str().map(str::to_string));
+    let told = ["albacore", "mission", "scenario", "first_seed", "set", "fault"].map(|name| origin[name].clone());
+    let scripts = ["sources", "scenario_script"].map(|name| digests(&origin[name]).into());
     let mut digest = Digest::new();
-    for text in key {
-        digest.bytes(&(text.len() as u64).to_le_bytes());
-        digest.bytes(text.as_bytes());
-    }
+    digest.bytes(Value::Array(told.into_iter().chain(scripts).collect()).to_string().as_bytes());
     digest.to_string()
 }
 
