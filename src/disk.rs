@@ -111,7 +111,7 @@ pub fn not_written(path: &Path, error: &io::Error) -> String {
     format!("`{}` cannot be written: {}", path.display(), why.unwrap_or_else(|| error.to_string()))
 }
 
-/// An error if a link is at a path, or a file that somebody else wrote or edited.
+/// An error if a link is at a path, a file that somebody else wrote or edited, or what no file can take the place of.
 pub fn spare(path: &Path) -> io::Result<()> {
     let refused = |why| Err(io::Error::new(ErrorKind::AlreadyExists, why));
     match fs::symlink_metadata(path) {
@@ -119,7 +119,7 @@ pub fn spare(path: &Path) -> io::Result<()> {
         Ok(there) if there.is_file() && !is_remakable(path, there.len()) => {
             refused("it is there already, and is not as Albacore made it")
         }
-        _ => Ok(()),
+        _ => replaceable(path).map(drop),
     }
 }
 

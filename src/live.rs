@@ -75,7 +75,7 @@ impl Live {
             let (left, failed) = files.unwrap_or_else(|| (Left::unknown(folder, FILES), true));
             left.tell_troubles();
             let told = run::RunResult::new(&summary, left.folder.as_deref());
-            printer.print(&told, outcome, left.picture.as_deref());
+            printer.print(&told, outcome, &left);
             failed
         });
         // A result that nobody could be told is a failure too.

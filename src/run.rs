@@ -6,12 +6,14 @@ use crate::exit::Exit;
 use crate::live::Live;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
-use crate::run_folder::{Place, Record, RunFolder, RunRequest};
+use crate::run_folder::{Left, Place, Record, RunFolder, RunRequest};
 use crate::speaker::{Speaker, hears_requests, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
 use crate::{interruption, message, output};
-use albacore_session::{HostClock, Outcome, Plan, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl};
+use albacore_session::{
+    HostClock, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::borrow::Cow;
 use std::io::IsTerminal;
@@ -120,7 +122,7 @@ impl Run {
         warn_of_faults_after(&plan, summary.sim_time_s);
         let left = kept.finish(&run, &summary);
         left.tell_troubles();
-        printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, left.picture.as_deref());
+        printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, &left);
         ResultPrinter::exit(outcome, kept.has_failed() || run.release_failed())
     }
 
@@ -234,7 +236,7 @@ impl ResultPrinter {
     }
 
     /// Tells it.
-    pub fn print(&self, told: &RunResult, outcome: Outcome, picture: Option<&Path>) {
+    pub fn print(&self, told: &RunResult, outcome: Outcome, left: &Left) {
         interruption::nobody_looks();
         let summary = told.summary;
         let link_failed = self.on_link && outcome == Outcome::Failed;
@@ -245,7 +247,7 @@ impl ResultPrinter {
             output::print_json(told);
         } else if !link_failed || summary.ticks > 0 {
             // Of a vehicle that was never heard there is no more to tell.
-            human(summary, picture).print();
+            human(summary, left).print();
         }
     }
 
@@ -279,7 +281,7 @@ impl<'a> RunResult<'a> {
 }
 
 /// The result as a person reads it.
-fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
+fn human(summary: &Summary, left: &Left) -> Lines {
     let mut lines = Lines::default();
     let minutes = |seconds: f64| format!("{} min {:02} s", (seconds / 60.0).floor(), (seconds % 60.0).floor());
     let mut head = format!(
@@ -328,10 +330,14 @@ fn human(summary: &Summary, picture: Option<&Path>) -> Lines {
             0 => String::new(),
             more => format!(", and {more} more than are kept"),
         };
-        lines.add(&format!("  recorded {rows} rows{more}"));
+        let where_to = match left.file(&RECORDED) {
+            Some(table) => format!(", in {}", table.display()),
+            None => ", which were not kept".to_string(),
+        };
+        lines.add(&format!("  recorded {rows} rows{more}{where_to}"));
     }
     lines.add(&format!("  digest {}", summary.digest));
-    if let Some(picture) = picture {
+    if let Some(picture) = left.file(&PICTURE) {
         lines.add(&format!("  picture {}", picture.display()));
     }
     lines

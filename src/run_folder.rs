@@ -9,7 +9,7 @@ use crate::disk;
 use crate::exit::Exit;
 use crate::message;
 use crate::synced::WRITTEN_INTO;
-use albacore_session::{PICTURE, Run, Summary, TRACE};
+use albacore_session::{PICTURE, Run, RunFile, Summary, TRACE};
 use folder::{Folder, JOURNAL, RECORD, Refusal};
 pub use folder::{Place, is_of_a_run};
 pub use record::{Record, RunRequest};
@@ -32,8 +32,8 @@ pub struct RunFolder {
 pub struct Left {
     /// Its folder.
     pub folder: Option<PathBuf>,
-    /// Its picture.
-    pub picture: Option<PathBuf>,
+    /// The names of the files in it that were written whole, beside journal and record.
+    files: Vec<&'static str>,
     /// What could not be written.
     troubles: Vec<Trouble>,
 }
@@ -45,9 +45,16 @@ impl Left {
     /// What nobody knows of: the disk holds whoever writes.
     pub fn unknown(folder: Option<PathBuf>, waited: Duration) -> Self {
         let seconds = waited.as_secs();
-        let what = format!("`run.json`, trace and picture are not on the disk after {seconds} s: it is stalled");
+        let what =
+            format!("`run.json` and what else is left at the end are not on the disk after {seconds} s: it is stalled");
         let help = "`run.json` may say for ever that the run goes on; how it ended is said here alone";
-        Left { folder, picture: None, troubles: vec![(what, Some(help.into()))] }
+        Left { folder, files: Vec::new(), troubles: vec![(what, Some(help.into()))] }
+    }
+
+    /// One of the files that the run left, if it was written.
+    pub fn file(&self, file: &RunFile) -> Option<PathBuf> {
+        let folder = self.folder.as_ref().filter(|_| self.files.contains(&file.name))?;
+        Some(folder.join(file.name))
     }
 
     /// Tells what could not be written. Apart from the writing: a terminal that is held is no disk that is stalled.
@@ -153,11 +160,14 @@ impl RunFolder {
         let texts: Vec<_> = run.files().map(|file| (file.name, run.file(file))).collect();
         texts.iter().for_each(|(name, text)| record.holds(name, text.as_bytes()));
         let begun = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.write(&text));
-        let (is_there, mut troubles) = (folder.is_there(), Vec::new());
+        let (is_there, mut files, mut troubles) = (folder.is_there(), Vec::new(), Vec::new());
         if is_there {
             for (name, text) in texts {
                 match disk::keep(&path.join(name), text.as_bytes()) {
-                    Ok(()) => record.has(name),
+                    Ok(()) => {
+                        record.has(name);
+                        files.push(name);
+                    }
                     Err(error) => {
                         record.loses(name, &error);
                         troubles.push((disk::not_written(&path.join(name), &error), None));
@@ -172,27 +182,7 @@ impl RunFolder {
         }
         // One that the disk has cut may have been written into besides.
         if is_there && !record.has_lost_by(JOURNAL, WRITTEN_INTO) {
-            let journal = path.join(JOURNAL);
-            let (why, what, help) = match folder.whole_journal() {
-                Ok(Some(bytes)) => {
-                    record.holds(JOURNAL, &bytes);
-                    (None, String::new(), "")
-                }
-                Ok(None) => (
-                    Some(WRITTEN_INTO.to_string()),
-                    format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", journal.display()),
-                    "it is left as it is; what was overwritten is lost",
-                ),
-                Err(error) => (
-                    Some(format!("it could not be read back: {error}")),
-                    format!("`{}` could not be read back: {error}", journal.display()),
-                    "it was written, and is left as it is",
-                ),
-            };
-            if let Some(why) = why {
-                record.also_loses(JOURNAL, &why);
-                troubles.push((what, Some(help.to_string())));
-            }
+            troubles.extend(journal_trouble(folder, record));
         }
         let ended = record.json(room).map_err(io::Error::from).and_then(|text| folder.record.finish(&text));
         if let Err(error) = begun.and(ended) {
@@ -201,27 +191,9 @@ impl RunFolder {
                 Some(format!("the run ended: {}", record.end())),
             ));
         }
-        let end = record.end();
-        match (is_there, folder.is_recorded()) {
-            (true, true) => {}
-            (true, false) => {
-                let help = format!("the run ended: {end}; what has its name now was left as it is");
-                troubles.push((not_ours(&path.join(RECORD)), Some(help)));
-            }
-            (false, true) => {
-                let help = "trace and picture were not written: another run may have the folder";
-                troubles.push((not_ours(&path.join(JOURNAL)), Some(help.to_string())));
-            }
-            (false, false) => {
-                let message =
-                    format!("`{}` is not this run's folder any more: it was moved or removed", path.display());
-                let help = "trace and picture were not written; `run.json` and the journal are where the folder is now, if anywhere";
-                troubles.push((message, Some(format!("the run ended: {end}; {help}"))));
-            }
-        }
+        troubles.extend(lost_folder(folder, is_there, record, run));
         self.failed |= !troubles.is_empty();
-        let picture = troubles.is_empty().then(|| path.join(PICTURE.name));
-        Left { folder: is_there.then_some(path), picture, troubles }
+        Left { folder: is_there.then_some(path), files, troubles }
     }
 
     /// The run's folder, if it has one.
@@ -240,6 +212,53 @@ const GONE: &str = "it was removed or replaced";
 
 fn not_ours(path: &Path) -> String {
     format!("`{}` is not this run's any more: {GONE}", path.display())
+}
+
+/// Reads the journal back, and records what it holds; gives what is wrong with it.
+fn journal_trouble(folder: &Folder, record: &mut Record) -> Option<Trouble> {
+    let journal = folder.path.join(JOURNAL);
+    let (why, what, help) = match folder.whole_journal() {
+        Ok(Some(bytes)) => {
+            record.holds(JOURNAL, &bytes);
+            return None;
+        }
+        Ok(None) => (
+            WRITTEN_INTO.to_string(),
+            format!("`{}` is not as this run wrote it: {WRITTEN_INTO}", journal.display()),
+            "it is left as it is; what was overwritten is lost",
+        ),
+        Err(error) => (
+            format!("it could not be read back: {error}"),
+            format!("`{}` could not be read back: {error}", journal.display()),
+            "it was written, and is left as it is",
+        ),
+    };
+    record.also_loses(JOURNAL, &why);
+    Some((what, Some(help.to_string())))
+}
+
+/// What to say of a run that ends, where its folder or its record is not its own any more.
+fn lost_folder(folder: &Folder, is_there: bool, record: &Record, run: &Run) -> Option<Trouble> {
+    let end = record.end();
+    let unwritten: Vec<_> = run.files().map(|file| file.name).collect();
+    let unwritten = format!("not written: {}", unwritten.join(", "));
+    match (is_there, folder.is_recorded()) {
+        (true, true) => None,
+        (true, false) => {
+            let help = format!("the run ended: {end}; what has its name now was left as it is");
+            Some((not_ours(&folder.path.join(RECORD)), Some(help)))
+        }
+        (false, true) => {
+            let help = format!("{unwritten}; another run may have the folder");
+            Some((not_ours(&folder.path.join(JOURNAL)), Some(help)))
+        }
+        (false, false) => {
+            let path = folder.path.display();
+            let message = format!("`{path}` is not this run's folder any more: it was moved or removed");
+            let help = "`run.json` and the journal are where the folder is now, if anywhere";
+            Some((message, Some(format!("the run ended: {end}; {unwritten}; {help}"))))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -183,3 +183,19 @@ fn what_cannot_be_told_is_said_and_nothing_is_written() {
     assert_eq!(code, Some(4));
     assert!(said.contains("cannot be written"), "{said}");
 }
+
+#[test]
+fn one_page_that_cannot_be_written_keeps_all_as_they_are() {
+    let script = |what: &str| format!("/// {what}.\nconst one = 1\n");
+    let (a, b) = (script("Old"), script("Old"));
+    let folder = folder("all-or-none", &[("a.alb", &a), ("b.alb", &b)]);
+    assert_eq!(doc_in(&folder, &[".", "--out", "pages"]).0, Some(0));
+    for name in ["a.alb", "b.alb"] {
+        std::fs::write(folder.join(name), script("New")).unwrap();
+    }
+    std::fs::remove_file(folder.join("pages/b.md")).unwrap();
+    std::fs::create_dir(folder.join("pages/b.md")).unwrap();
+    let (code, _, said) = doc_in(&folder, &[".", "--out", "pages"]);
+    assert!(code == Some(4) && said.contains("b.md"), "{code:?} {said}");
+    assert!(std::fs::read_to_string(folder.join("pages/a.md")).unwrap().contains("Old"));
+}

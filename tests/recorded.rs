@@ -51,7 +51,14 @@ fn a_run_leaves_what_it_recorded_and_says_how_much() {
         );
     }
     let (_, told, _) = run(&out, &["--replace"]);
-    assert!(told.contains(&format!("  recorded {} rows\n", table.lines().count() - 1)), "{told}");
+    assert!(
+        told.contains(&format!(
+            "  recorded {} rows, in {}\n",
+            table.lines().count() - 1,
+            out.join("recorded.csv").display()
+        )),
+        "{told}"
+    );
 }
 
 const TWICE: &str = "behavior leg {

@@ -325,6 +325,7 @@ fn a_run_whose_folder_is_moved_says_there_how_it_ended() {
     std::fs::rename(project.join("out"), project.join("elsewhere")).unwrap();
     let (code, told, said) = ended(child);
     assert!(code == Some(4) && said.contains("it was moved or removed"), "{code:?} {said}");
+    assert!(said.contains("not written: trace.txt, run.svg"), "{said}");
     assert!(!told.contains("\"folder\""), "{told}");
     assert!(!project.join("out").exists());
     let moved = project.join("elsewhere");

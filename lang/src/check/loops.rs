@@ -6,7 +6,7 @@ use super::{Checker, Def, Setting, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Block, Expr, ExprKind, Interval, Stmt, StmtKind, VarKind};
+use crate::hir::{Block, Expr, ExprKind, Interval, RowPlan, Stmt, StmtKind, VarKind};
 use crate::source::Span;
 use crate::syntax::tree::{self, Condition, ForOver};
 use crate::types::{Type, is_number};
@@ -121,7 +121,8 @@ impl<'t> Checker<'t> {
             return None;
         }
         let area = self.expr_as(base, &Type::Area, "what is walked in rows");
-        let (step, near) = self.step_and_near(args, written.span);
+        let rows = self.row_plan(area, args, written.span);
+        let step = &rows.step;
         if step.range.low <= 0.0 && step.ty != Type::Unknown {
             self.report(
                 Diagnostic::error(Code::RangesStep, step.span, "rows must lie farther apart than nothing")
@@ -130,18 +131,26 @@ impl<'t> Checker<'t> {
         }
         self.enter_loop();
         let (var, body) = self.in_block(|c| (c.declare(name, VarKind::Loop, Type::Line), c.block(block)));
-        Some(StmtKind::ForRows { var, area, step, near, body })
+        Some(StmtKind::ForRows { var, rows: Box::new(rows), body })
     }
 
-    /// How far rows lie apart, and the point that they begin nearest to: where nothing else is said, the input `position`.
-    fn step_and_near(&mut self, args: &[tree::Arg], span: Span) -> (Expr, Expr) {
-        let params = [("step", Type::Quantity(Dimension::LENGTH)), ("near", Type::Point)];
-        let says_near = args.len() > 1 || args.iter().any(|arg| arg.label.as_ref().is_some_and(|l| l.node == "near"));
-        let params = if says_near { &params[..] } else { &params[..1] };
-        let mut given = self.simple_args("rows", params, args, span).unwrap_or_default().into_iter();
-        let step = given.next().unwrap_or_else(|| self.unknown(span));
-        let near = if says_near { given.next() } else { Some(self.position_for_rows(span)) };
-        (step, near.unwrap_or_else(|| self.unknown(span)))
+    /// How far rows lie apart, their heading, and the point that they begin nearest to: where nothing else is said, the input
+    /// `position`.
+    fn row_plan(&mut self, area: Expr, args: &[tree::Arg], span: Span) -> RowPlan {
+        let all = [("step", Type::Quantity(Dimension::LENGTH)), ("near", Type::Point), ("along", Type::Heading)];
+        let labels = || args.iter().filter_map(|arg| arg.label.as_ref());
+        let without_label = args.iter().filter(|arg| arg.label.is_none()).count();
+        // A label that there is not is told beside all that there are.
+        let is_other = labels().any(|label| all.iter().all(|(name, _)| label.node != *name));
+        let says = |n: usize| is_other || without_label > n || labels().any(|label| label.node == all[n].0);
+        let (says_near, says_along) = (says(1), says(2));
+        let params: Vec<_> = (0..all.len()).filter(|n| *n == 0 || says(*n)).map(|n| all[n].clone()).collect();
+        let mut given = self.simple_args("rows", &params, args, span).unwrap_or_default().into_iter();
+        let mut next = |c: &Self| given.next().unwrap_or_else(|| c.unknown(span));
+        let step = next(self);
+        let near = if says_near { next(self) } else { self.position_for_rows(span) };
+        let along = says_along.then(|| next(self));
+        RowPlan { area, step, along, near }
     }
 
     fn position_for_rows(&mut self, span: Span) -> Expr {

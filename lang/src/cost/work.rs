@@ -6,7 +6,7 @@ use super::weight::{capacity, in_order, weight};
 use crate::check::takes_time;
 use crate::hir::{
     self, Action, Activity, ActivityId, Block, Body, Builtin, ClauseArg, ClauseUse, Decl, Expr, ExprKind, FnId, Hir,
-    InputPart, Stmt, StmtKind, Target, TextPart, Timed, Var, With, children,
+    InputPart, RowPlan, Stmt, StmtKind, Target, TextPart, Timed, Var, With, children,
 };
 use crate::source::{Sources, Span};
 use crate::types::{Type, TypeTable};
@@ -245,10 +245,11 @@ impl<'a> Work<'a> {
             StmtKind::ForEdges { area, body, .. } => {
                 sum([self.expr(area), self.rounds(stmt.span, self.corners(), 0, body, vars)])
             }
-            StmtKind::ForRows { area, step, near, body, .. } => {
+            StmtKind::ForRows { rows, body, .. } => {
+                let RowPlan { area, step, along, near } = &**rows;
                 let across = ACROSS * (self.corners() + u64::from(ROWS_MAX) / WORDS_A_STEP);
                 let rows = self.rounds(stmt.span, u64::from(ROWS_MAX), A_ROW * self.corners(), body, vars);
-                sum([self.exprs([area, step, near]), across, rows])
+                sum([self.exprs([area, step, near].into_iter().chain(along)), across, rows])
             }
             // Each round takes time: in a tick one ends and the next begins.
             StmtKind::While { condition, body, .. } => {

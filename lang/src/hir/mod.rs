@@ -372,9 +372,7 @@ pub enum StmtKind {
     },
     ForRows {
         var: VarId,
-        area: Expr,
-        step: Expr,
-        near: Expr,
+        rows: Box<RowPlan>,
         body: Block,
     },
     While {
@@ -392,6 +390,19 @@ pub enum StmtKind {
         fields: Vec<(String, Expr)>,
     },
     Log(Vec<TextPart>),
+}
+
+/// The rows of an area.
+#[derive(Clone, Debug)]
+pub struct RowPlan {
+    /// The area.
+    pub area: Expr,
+    /// How far they lie apart at most.
+    pub step: Expr,
+    /// Their heading: that of the longest edge, where none is given.
+    pub along: Option<Expr>,
+    /// They begin at the end that is nearest to it.
+    pub near: Expr,
 }
 
 /// What `with` puts in force.

@@ -1,8 +1,8 @@
 //! Walks over the checked program: the statements of a block, the expressions of anything.
 
 use super::{
-    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Kind, Stmt, StmtKind,
-    Target, TextPart, With,
+    Action, Activity, ActivityId, Block, Body, Decl, Expr, ExprKind, FnId, Hir, InputPart, Kind, RowPlan, Stmt,
+    StmtKind, Target, TextPart, With,
 };
 use crate::source::Span;
 use crate::types::Type;
@@ -381,9 +381,11 @@ pub fn block_children<'e>(block: &'e Block, f: &mut dyn FnMut(&'e Expr)) {
                 f(e);
                 block_children(body, f);
             }
-            StmtKind::ForRows { area, step, near, body, .. } => {
+            StmtKind::ForRows { rows, body, .. } => {
+                let RowPlan { area, step, along, near } = &**rows;
                 f(area);
                 f(step);
+                along.iter().for_each(&mut *f);
                 f(near);
                 block_children(body, f);
             }

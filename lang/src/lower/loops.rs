@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::check::goes_round;
-use crate::hir::{self, Block, Expr};
+use crate::hir::{self, Block, Expr, RowPlan};
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
 use albacore_arithmetic::Operator;
@@ -98,12 +98,14 @@ impl<'a> Lowering<'a> {
     }
 
     /// What all rows have in common is computed at the start, each row when its turn comes, until there are none left.
-    pub(super) fn for_rows(&mut self, var: usize, area: &Expr, (step, near): (&Expr, &Expr), body: &Block) {
-        let area = self.walked_area(area);
+    pub(super) fn for_rows(&mut self, var: usize, plan: &RowPlan, body: &Block) {
+        let area = self.walked_area(&plan.area);
         let (rows, place, counter) = (self.lasting(ROWS_WORDS), self.lasting(ROW_PLACE_WORDS), self.lasting(1));
         self.scratch(|l| {
-            let (step, near) = (l.expr(step), l.expr(near));
-            l.emit(AreaOp::Rows { to: rows, area, step, near });
+            let step = l.expr(&plan.step);
+            let along = plan.along.as_ref().map(|along| l.expr(along));
+            let near = l.expr(&plan.near);
+            l.emit(AreaOp::Rows { to: rows, area, step, along, near });
         });
         self.emit(Compute::Clear { to: place, words: ROW_PLACE_WORDS });
         self.emit(Compute::Const { to: counter, value: 0.0 });

@@ -67,7 +67,7 @@ impl<'a> Lowering<'a> {
             }
             StmtKind::ForList { var, place, list, body } => self.for_list((*var, *place), list, body),
             StmtKind::ForEdges { var, area, body } => self.for_edges(*var, area, body),
-            StmtKind::ForRows { var, area, step, near, body } => self.for_rows(*var, area, (step, near), body),
+            StmtKind::ForRows { var, rows, body } => self.for_rows(*var, rows, body),
             StmtKind::While { condition, bind, body } => self.while_loop(condition, *bind, body),
             StmtKind::Loop(body) => {
                 let begun = self.rounds_begun(body);

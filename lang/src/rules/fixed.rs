@@ -3,8 +3,8 @@
 //! condition asks about has none here, for what is known of it there is not known here.
 
 use crate::hir::{
-    Activity, Block, Builtin, Decl, Expr, ExprKind, FnId, Hir, Stmt, StmtKind, VarId, VarKind, activity_children,
-    block_children, children,
+    Activity, Block, Builtin, Decl, Expr, ExprKind, FnId, Hir, RowPlan, Stmt, StmtKind, VarId, VarKind,
+    activity_children, block_children, children,
 };
 use crate::source::Span;
 use crate::types::{Type, TypeTable};
@@ -56,7 +56,7 @@ enum Source<'h> {
     /// Each edge of an area.
     Edges(&'h Expr),
     /// Each row of an area, so far apart at most.
-    Rows(&'h Expr, &'h Expr),
+    Rows(&'h RowPlan),
 }
 
 /// The constants of a mission with all that it calls.
@@ -145,7 +145,7 @@ impl<'h> Fixed<'h> {
                 self.changed.insert((unit, *var));
             }
             StmtKind::ForEdges { var, area, .. } => self.sets((unit, *var), unit, Source::Edges(area)),
-            StmtKind::ForRows { var, area, step, .. } => self.sets((unit, *var), unit, Source::Rows(area, step)),
+            StmtKind::ForRows { var, rows, .. } => self.sets((unit, *var), unit, Source::Rows(rows)),
             StmtKind::ForRange { var, first, last, inclusive, .. } => {
                 self.sets((unit, *var), unit, Source::Numbers(first, last, *inclusive));
             }
@@ -330,11 +330,18 @@ impl<'h> Fixed<'h> {
                 numbers.map(|x| (first.span.to(last.span), Value::Number(x))).collect()
             }
             Source::Edges(area) => lines(self.values(unit, area), &|area| area.edges().map(|edge| edge.line).collect()),
-            Source::Rows(area, step) => {
+            Source::Rows(RowPlan { area, step, along, .. }) => {
                 let [(_, Value::Number(step))] = self.values(unit, step)[..] else { return Vec::new() };
+                let along = match along.as_ref().map(|along| self.values(unit, along)) {
+                    None => None,
+                    Some(values) => {
+                        let [(_, Value::Number(along))] = values[..] else { return Vec::new() };
+                        Some(Heading::from_radians(along))
+                    }
+                };
                 // Where they begin changes their order and their direction alone.
                 let rows = |area: &Area| {
-                    let across = Rows::across(area.edges(), step, area.center());
+                    let across = Rows::across(area.edges(), step, along, area.center());
                     across.into_iter().flat_map(|rows| rows.rows(area.edges())).take(VALUES_MAX).collect()
                 };
                 lines(self.values(unit, area), &rows)

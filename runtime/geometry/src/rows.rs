@@ -1,6 +1,7 @@
 //! The lines of a lawn-mower across an area.
 
 use crate::area::Edge;
+use crate::heading::Heading;
 use crate::outline::chords;
 use crate::plane::{Line, Point, Vector};
 
@@ -18,18 +19,19 @@ const ROUNDING: f64 = 1e-9;
 
 /// The rows across an area that is given by its edges, clockwise: what of them does not change from one to the next.
 ///
-/// Rows lie on lines along the area's longest edge, of several the first, at most `step` metres apart and the outermost half as far
-/// from the area's sides. A line that leaves the area and comes back has a row for each piece that lies inside, driven one after
-/// the other. Rows begin at the end of an outermost row that is nearest to `near`, of several the first of these:
-/// start and end of the row beside that edge, driven as the edge goes, clockwise round the area; start and end of the row
-/// opposite, driven the same way. Each next one is driven the other way. So the rows are a function of area, step and `near`.
+/// Rows lie on lines along a heading, at most `step` metres apart and the outermost half as far from the area's sides. Where no
+/// heading is given it is that of the longest edge, of several the first, clockwise round the area. A line that leaves the area and
+/// comes back has a row for each piece that lies inside, driven one after the other. Rows begin at the end of an outermost row that
+/// is nearest to `near`, of several the first of these: start and end of the row farthest to the left of the heading, driven along
+/// it; start and end of the row opposite, driven the same way. Each next one is driven the other way. So the rows are a function of
+/// area, step, heading and `near`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rows {
-    /// A point on the line along the longest edge beyond which nothing of the area lies: the start of that edge, if it has no dents.
+    /// A point on the line along the rows to the left of which nothing of the area lies.
     pub start: Point,
-    /// Outward over that edge, of length 1.
+    /// To the left of the rows' heading, of length 1: outward over the longest edge.
     pub outward: Vector,
-    /// Along that edge, of length 1.
+    /// The rows' heading, of length 1.
     pub ray: Vector,
     /// Metres from one line to the next.
     pub apart: f64,
@@ -37,9 +39,9 @@ pub struct Rows {
     pub count: u32,
     /// And on how many lines.
     pub lines: u32,
-    /// Whether the first line is the one opposite the longest edge.
+    /// Whether the first line is the one farthest to the right.
     pub is_opposite: bool,
-    /// Whether the first is driven against the longest edge.
+    /// Whether the first is driven against the heading.
     pub is_backward: bool,
 }
 
@@ -54,17 +56,19 @@ pub struct Place {
 
 impl Rows {
     /// None across an area without edges.
-    pub fn across(edges: impl Iterator<Item = Edge> + Clone, step: f64, near: Point) -> Option<Self> {
-        let mut edges_left = edges.clone();
-        let mut longest = edges_left.next()?;
-        for edge in edges_left {
-            if edge.line.length() > longest.line.length() + LONGER_M {
-                longest = edge;
-            }
-        }
-        let inward = edges.clone().map(|edge| longest.gap(edge.line.start));
+    pub fn across(
+        edges: impl Iterator<Item = Edge> + Clone,
+        step: f64,
+        along: Option<Heading>,
+        near: Point,
+    ) -> Option<Self> {
+        let longest = longest(edges.clone())?;
+        let (outward, ray) = match along.map(Heading::unit) {
+            Some(ray) => (Vector::new(ray.east, -ray.north), ray),
+            None => (longest.normal, longest.line.heading().unit()),
+        };
+        let inward = edges.clone().map(|edge| (longest.line.start - edge.line.start).dot(outward));
         let (least, most) = inward.fold((0.0, 0.0), |(least, most): (f64, f64), off| (least.min(off), most.max(off)));
-        let (outward, ray) = (longest.normal, longest.line.heading().unit());
         let (start, width) = (longest.line.start - least * outward, most - least);
         let mut rows = Rows {
             start,
@@ -125,7 +129,7 @@ impl Rows {
         (self.start - p).dot(self.outward) > inward
     }
 
-    /// How many pieces of each line lie inside, counted from the longest edge's side: half as often as it is crossed.
+    /// How many pieces of each line lie inside, counted from the left: half as often as it is crossed.
     fn pieces(&self, edges: impl Iterator<Item = Edge>) -> Vec<u32> {
         let inward: Vec<f64> = (0..self.lines).map(|line| self.inward(line)).collect();
         // At each line: how many more edges cross it than the one before.
@@ -144,7 +148,7 @@ impl Rows {
         pieces.collect()
     }
 
-    /// The pieces of the line of an index counted from the longest edge's side, driven as that edge goes.
+    /// The pieces of the line of an index counted from the left, driven along the heading.
     fn along(&self, edges: impl Iterator<Item = Edge>, line: u32) -> Vec<Line> {
         let inward = self.inward(line);
         chords(edges, self.ray, self.start - inward * self.outward, |p| self.is_beyond(p, inward))
@@ -167,6 +171,17 @@ impl Rows {
     }
 }
 
+/// Of an area's edges the longest, of several the first.
+fn longest(mut edges: impl Iterator<Item = Edge>) -> Option<Edge> {
+    let first = edges.next()?;
+    Some(edges.fold(
+        first,
+        |longest, edge| {
+            if edge.line.length() > longest.line.length() + LONGER_M { edge } else { longest }
+        },
+    ))
+}
+
 /// On how many lines rows lie that are at most so far apart.
 fn lines_of(width: f64, step: f64) -> u32 {
     // Written so that a step that is no number, or not above 0, gives as many as may be.
@@ -182,7 +197,7 @@ mod tests {
     use crate::{Area, Heading};
 
     fn rows_near(area: &Area, step: f64, near: Point) -> Vec<Line> {
-        Rows::across(area.edges(), step, near).unwrap().rows(area.edges()).collect()
+        Rows::across(area.edges(), step, None, near).unwrap().rows(area.edges()).collect()
     }
 
     fn rows(area: &Area, step: f64) -> Vec<Line> {
@@ -280,6 +295,52 @@ mod tests {
     }
 
     #[test]
+    fn rows_along_a_heading_cover_the_area_from_inside() {
+        let p = Point::new;
+        // An L that is turned: an inner edge lies on a line of the rows along its sides.
+        let l = [(0.0, 0.0), (100.0, 0.0), (100.0, 50.0), (50.0, 50.0), (50.0, 100.0), (0.0, 100.0)];
+        for turn in (0..360).step_by(7).map(f64::from) {
+            let ahead = Heading::from_degrees(turn).unit();
+            let turned = l.map(|(n, e)| p(3.0, -8.0) + n * ahead + e * Vector::new(-ahead.east, ahead.north));
+            let area = Area::polygon(&turned).unwrap();
+            for along in (0..360).step_by(15).map(|off| Heading::from_degrees(turn + f64::from(off))) {
+                for step in [12.5, 40.0, 100.0] {
+                    let rows: Vec<Line> =
+                        Rows::across(area.edges(), step, Some(along), turned[0]).unwrap().rows(area.edges()).collect();
+                    for row in &rows {
+                        let ends = [row.start, row.end].map(|end| area.gap(end).abs());
+                        assert!(ends[0] < 1e-6 && ends[1] < 1e-6, "{turn:?} {along:?} {step}: {row:?} {ends:?}");
+                        assert!((row.end - row.start).right_of(along).abs() < 1e-6);
+                    }
+                    for place in area
+                        .edges()
+                        .flat_map(|edge| [edge.line.start, edge.line.start + 0.5 * (edge.line.end - edge.line.start)])
+                    {
+                        let off = |row: &Line| (place - row.start).right_of(along).abs();
+                        let nearest = rows.iter().map(off).fold(f64::INFINITY, f64::min);
+                        assert!(
+                            nearest <= step / 2.0 + 1e-6,
+                            "{turn:?} {along:?} {step}: {place:?} is {nearest} m off"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rows_along_a_heading_begin_nearest_and_take_turns() {
+        let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 200.0, 100.0);
+        let across = |near| {
+            let rows = Rows::across(area.edges(), 100.0, Some(Heading::from_degrees(90.0)), near).unwrap();
+            rows.rows(area.edges()).collect::<Vec<_>>()
+        };
+        let p = Point::new;
+        assert!(lead(&across(Point::ORIGIN), &[(50.0, -50.0), (50.0, 50.0), (-50.0, 50.0), (-50.0, -50.0)]));
+        assert!(lead(&across(p(-90.0, 40.0)), &[(-50.0, 50.0), (-50.0, -50.0), (50.0, -50.0), (50.0, 50.0)]));
+    }
+
+    #[test]
     fn a_comb_has_no_more_rows_than_any_area() {
         let tooth =
             |i: u32| [(0.0, 0.0), (900.0, 0.5), (900.0, 1.5), (0.0, 2.0)].map(|(n, e)| (n, e + 4.0 * f64::from(i)));
@@ -299,6 +360,6 @@ mod tests {
         let rounded = Area::rectangle(Point::ORIGIN, Heading::from_degrees(17.0), 300.0, 200.0);
         assert_eq!(rows(&rounded, 40.0).len(), 5);
         assert_eq!(rows(&area, f64::INFINITY).len(), 1);
-        assert_eq!(Rows::across(std::iter::empty(), 10.0, Point::ORIGIN), None);
+        assert_eq!(Rows::across(std::iter::empty(), 10.0, None, Point::ORIGIN), None);
     }
 }

@@ -184,7 +184,7 @@ fn rows_lie_inside_and_no_place_is_farther_from_their_lines_than_half_a_step() {
     for _ in 0..AREAS / 20 {
         let area = random.area();
         let step = random.size(0.02, 1.0) * area.width();
-        let rows = Rows::across(area.edges(), step, random.place()).unwrap();
+        let rows = Rows::across(area.edges(), step, None, random.place()).unwrap();
         let lines: Vec<Line> = rows.rows(area.edges()).collect();
         assert_eq!(lines.len(), rows.count as usize);
         for line in &lines {

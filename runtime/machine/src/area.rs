@@ -67,8 +67,8 @@ impl Run {
         (0..self.corners(area)).map(move |i| self.edge_of(area, i))
     }
 
-    pub fn rows_across(&self, area: Slot, step: f64, near: Point) -> Option<Rows> {
-        Rows::across(self.edges_of(area), step, near)
+    pub fn rows_across(&self, area: Slot, step: f64, along: Option<Heading>, near: Point) -> Option<Rows> {
+        Rows::across(self.edges_of(area), step, along, near)
     }
 
     pub fn set_rows(&mut self, at: Slot, rows: Option<Rows>) {

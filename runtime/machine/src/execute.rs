@@ -162,8 +162,9 @@ impl Run {
                 let corner = self.farthest_corner(b(area), self.heading_at(b(heading)), self.point(b(near)));
                 self.set_point(b(to), corner);
             }
-            AreaOp::Rows { to, area, step, near } => {
-                let rows = self.rows_across(b(area), self.get(b(step)), self.point(b(near)));
+            AreaOp::Rows { to, area, step, along, near } => {
+                let along = along.map(|along| self.heading_at(b(along)));
+                let rows = self.rows_across(b(area), self.get(b(step)), along, self.point(b(near)));
                 self.set_rows(b(to), rows);
             }
             AreaOp::RowAt { to, place, rows, area, .. } => self.take_row(b(to), b(place), b(rows), b(area)),

@@ -4,8 +4,8 @@ use super::expr::{Frame, Scope, exactly, holds, insert, number, sorted, text, va
 use super::timed::Underway;
 use super::value::Value;
 use super::world::World;
-use albacore_geometry::Rows;
-use albacore_lang::hir::{Block, Expr, Stmt, StmtKind, TextPart, Timed, With};
+use albacore_geometry::{Heading, Rows};
+use albacore_lang::hir::{Block, Expr, RowPlan, Stmt, StmtKind, TextPart, Timed, With};
 use albacore_lang::source::Span;
 
 /// What a body has still to do, the next last.
@@ -176,9 +176,12 @@ fn rounds<'b>(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &'b Stmt) -> Option<(us
         StmtKind::ForEdges { var, area, body } => {
             (*var, value(w, s, area).edges().iter().map(|edge| Value::of_edge(*edge)).collect(), body)
         }
-        StmtKind::ForRows { var, area, step, near, body } => {
-            let (area, step, near) = (value(w, s, area), number(w, s, step), value(w, s, near).point());
-            let across = Rows::across(area.edges().iter().copied(), step, near);
+        StmtKind::ForRows { var, rows, body } => {
+            let RowPlan { area, step, along, near } = &**rows;
+            let (area, step) = (value(w, s, area), number(w, s, step));
+            let along = along.as_ref().map(|along| Heading::from_radians(number(w, s, along)));
+            let near = value(w, s, near).point();
+            let across = Rows::across(area.edges().iter().copied(), step, along, near);
             let rows = across.into_iter().flat_map(|rows| rows.rows(area.edges().iter().copied()));
             (*var, rows.map(Value::of_line).collect(), body)
         }

@@ -175,6 +175,11 @@ impl Generator {
         format!("{what}{}", self.next)
     }
 
+    /// A value after a label, in every other place.
+    fn perhaps(&mut self, label: &str, ty: Ty) -> String {
+        if self.random.percent(50) { format!("{label}{}", self.expr(ty, 1)) } else { String::new() }
+    }
+
     fn declare(&mut self, text: &str, ty: Ty, is_memory: bool) {
         self.names.push(Name { text: text.to_string(), ty, is_memory });
     }

@@ -287,11 +287,9 @@ impl Generator {
             5 if self.has_area => {
                 self.count("for rows");
                 let name = self.fresh("row");
-                let near = match self.random.percent(50) {
-                    true => format!(", near: {}", self.expr(Ty::Point, 1)),
-                    false => String::new(),
-                };
-                self.braces(&format!("for {name} in op.rows(40 m{near})"), |g| {
+                let near = self.perhaps(", near: ", Ty::Point);
+                let along = self.perhaps(", along: ", Ty::Heading);
+                self.braces(&format!("for {name} in op.rows(40 m{near}{along})"), |g| {
                     let time = g.time();
                     g.line(&format!("follow {name} for {time}"));
                     g.line(&format!("log \"{{{name}}}\""));

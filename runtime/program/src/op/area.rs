@@ -46,11 +46,12 @@ pub enum AreaOp {
         heading: Slot,
         near: Slot,
     },
-    /// The rows that lie `step` metres apart and begin at the end nearest to `near`.
+    /// The rows that lie `step` metres apart, along a heading or the longest edge, and begin at the end nearest to `near`.
     Rows {
         to: Slot,
         area: Slot,
         step: Slot,
+        along: Option<Slot>,
         near: Slot,
     },
     /// The row of an index. Three words at `place` tell whether there is one, and on which line and as which of its pieces the next
