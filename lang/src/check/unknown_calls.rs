@@ -1,7 +1,7 @@
 //! Names that nothing has which can be called.
 
 use super::args::{BUILTINS, ROUND};
-use super::{Checker, Setting};
+use super::{Checker, Def, Setting};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -33,9 +33,10 @@ impl Checker<'_> {
             }
             (Some(help), _) => finding.help(help),
             (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
-            (None, None) => {
-                finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`")
-            }
+            (None, None) => match self.import_with(self.scope.module, name, Def::can_be_called) {
+                Some(module) => finding.help(format!("write `{module}.{name}(…)`: it is of the module `{module}`")),
+                None => finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`"),
+            },
         };
         self.report(finding);
     }

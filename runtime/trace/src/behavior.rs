@@ -79,7 +79,9 @@ impl BehaviorTrace {
         let scenario =
             if header.scenario.is_empty() { String::new() } else { format!("  scenario {}", header.scenario) };
         let tick = number::fixed(header.tick_s, 1);
-        let line = format!("mission {}{scenario}  seed {}  tick {tick} s", header.mission, header.seed);
+        // What places in metres are counted from.
+        let origin = program.mission.origin.map_or_else(String::new, |origin| format!("  about {origin}"));
+        let line = format!("mission {}{scenario}  seed {}  tick {tick} s{origin}", header.mission, header.seed);
         trace.lines.push((Kind::Header, one_line(&line)));
         trace
     }
