@@ -45,6 +45,7 @@ fn all_hold(page: &str, least: usize) {
 #[test]
 fn the_examples_of_the_reference_are_checked() {
     all_hold(REFERENCE, 20);
+    all_hold("docs/files.md", 1);
 }
 
 #[test]
