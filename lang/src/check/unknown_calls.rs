@@ -35,7 +35,9 @@ impl Checker<'_> {
             (None, Some(near)) => finding.help(format!("did you mean `{near}`?")),
             (None, None) => match self.import_with(self.scope.module, name, Def::can_be_called) {
                 Some(module) => finding.help(format!("write `{module}.{name}(…)`: it is of the module `{module}`")),
-                None => finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`"),
+                None => {
+                    finding.help("functions, behaviors and strategies of other modules are written `module.name(…)`")
+                }
             },
         };
         self.report(finding);
