@@ -8,8 +8,6 @@ use serde::{Deserialize, Serialize};
 
 /// A mission whose vehicle has lain on the bottom for so long, s, at once or again and again while it drove, is aborted: its recovery leads up.
 const AGROUND_MAX_S: f64 = 30.0;
-/// One that has lain there for so long in all, s, has done more than touch it, whatever comes after.
-const TOUCHED_MAX_S: f64 = 10.0;
 
 /// What is known of the vehicle on the bottom.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,6 +17,10 @@ pub(crate) struct Aground {
     driven_since: Option<u64>,
     /// For how many ticks it has lain there while the mission drove: what it does by a plan of its own is no mission's fault.
     driven: u64,
+    /// It has swum while the mission drove: one that is launched from the bottom has not run aground there.
+    swam: bool,
+    /// It has come down on the bottom while the mission drove.
+    struck: bool,
     /// The least depth at which it has lain, m.
     depth: Option<f64>,
 }
@@ -31,7 +33,10 @@ impl Run {
         let Aground { since: lain, driven_since, .. } = self.state.aground;
         self.state.aground.since = since(lain, aground);
         self.state.aground.driven_since = since(driven_since, aground && self.drives());
-        self.state.aground.driven += u64::from(aground && self.drives());
+        let drives = self.drives();
+        self.state.aground.swam |= drives && !aground;
+        self.state.aground.driven += u64::from(aground && drives);
+        self.state.aground.struck |= drives && aground && self.state.aground.swam;
         if aground {
             let depth = self.depth();
             self.state.aground.depth = Some(self.state.aground.depth.map_or(depth, |least| least.min(depth)));
@@ -58,8 +63,8 @@ impl Run {
         self.events.push(Event::Aborted(format!("aground for {AGROUND_MAX_S} s")));
     }
 
-    /// What a mission counts as that ends so. One that leaves its vehicle on the bottom, or has left it there for a while, has not come to
-    /// its own end, whatever it says: an event tells why.
+    /// What a mission counts as that ends so. One that leaves its vehicle on the bottom, or has driven it there, has not come to its own
+    /// end, whatever it says: an event tells why.
     pub fn counts_as(&mut self, outcome: Outcome) -> Outcome {
         let Some(why) = self.why_aground(outcome) else { return outcome };
         if outcome == Outcome::Completed {
@@ -69,12 +74,12 @@ impl Run {
     }
 
     fn why_aground(&self, outcome: Outcome) -> Option<&'static str> {
-        let Aground { since, driven, .. } = self.state.aground;
+        let Aground { since, struck, .. } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
                 Some("the vehicle lies on the bottom")
             }
-            Outcome::Completed if driven as f64 * TICK_S >= TOUCHED_MAX_S => Some("the vehicle has lain on the bottom"),
+            Outcome::Completed if struck => Some("the vehicle struck the bottom"),
             _ => None,
         }
     }
