@@ -40,8 +40,6 @@ pub(super) struct Required {
 
 /// A vehicle that lies on the bottom for so long is stranded: 30 s.
 const STRANDED_TICKS: u64 = 300;
-/// One that lies there for so long in all has done more than touch it: 10 s.
-const TOUCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
@@ -61,10 +59,12 @@ pub struct Evaluator<'p> {
     filter: CommandFilter,
     pub(super) bottom: Bottom,
     pub(super) lift: Lift,
-    /// Since when the vehicle has lain on the bottom, and for how many ticks in all, and while it drove.
+    /// Since when the vehicle has lain on the bottom, and for how many ticks while it drove.
     aground: Option<u64>,
-    lain: u64,
     lain_driven: u64,
+    /// It has swum while it drove, and then come down on the bottom.
+    swam: bool,
+    struck: bool,
     /// The least depth at which it has, m.
     lain_at: Option<f64>,
     /// Rule 6: whether the heading and depth of the very start have been taken.
@@ -101,8 +101,9 @@ impl<'p> Evaluator<'p> {
             bottom: Bottom::default(),
             lift: Lift::default(),
             aground: None,
-            lain: 0,
             lain_driven: 0,
+            swam: false,
+            struck: false,
             lain_at: None,
             stands: false,
             first_depths: FirstDepths::default(),
@@ -130,8 +131,11 @@ impl<'p> Evaluator<'p> {
         let asked = self.w.asked.vertical;
         self.bottom.hear(&self.w, asked);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
-        self.lain += u64::from(snapshot.aground);
-        self.lain_driven += u64::from(snapshot.aground && snapshot.control == Control::InControl);
+        if snapshot.control == Control::InControl {
+            self.lain_driven += u64::from(snapshot.aground);
+            self.struck |= self.swam && snapshot.aground;
+            self.swam |= !snapshot.aground;
+        }
         if snapshot.aground {
             let depth = self.w.depth().unwrap_or(0.0);
             self.lain_at = Some(self.lain_at.map_or(depth, |least: f64| least.min(depth)));
@@ -420,10 +424,10 @@ impl<'p> Evaluator<'p> {
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
             let lies = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
-            let stranded = lies || self.lain >= TOUCHED_TICKS && outcome == "completed";
+            let stranded = lies || self.struck && outcome == "completed";
             if stranded && outcome == "completed" {
-                let how = if lies { "lies" } else { "has lain" };
-                self.w.say(format!("abort the vehicle {how} on the bottom"));
+                let how = if lies { "lies on" } else { "struck" };
+                self.w.say(format!("abort the vehicle {how} the bottom"));
             }
             self.recovery.leave(&mut self.w, Cause::Preempted);
             self.mission.leave(&mut self.w, cause);
