@@ -14,29 +14,17 @@ use crate::types::Type;
 const ELEMENT: &str = "it";
 
 impl<'t> Checker<'t> {
-    /// Says where the element's name would hide another.
-    fn element_is_new(&mut self, key: Span) {
-        let message = format!("`{ELEMENT}` is the name of something already: in this key it is the list's element");
-        let finding = Diagnostic::error(Code::NamesShadowed, key, message).here("nothing can be shadowed");
-        let help = "give what was declared another name";
-        if let Some(earlier) = self.local(ELEMENT) {
-            let declared = self.scope.vars[earlier].span;
-            self.report(finding.label(declared, "declared here").help(help));
-        } else if self.lookup(self.scope.module, ELEMENT).is_some() {
-            self.report(finding.help(help));
-        }
-    }
-
     /// `[Point; 6] by most KEY`: the key is a function of `it`.
     pub(super) fn list_order(&mut self, id: usize, ty: &tree::Ty) {
         let TyKind::List { order: Some((most, key)), .. } = &ty.kind else { return };
         let Type::List(inner, _) = self.scope.vars[id].ty.clone() else { return };
         let span = key.span;
-        self.element_is_new(span);
+        let element = tree::Name { node: ELEMENT.to_string(), span };
+        self.name_is_new(&element, "in this key `it` is the list's element: give what is declared another name");
         let (it, key) = self.in_block(|c| {
             // It is computed whenever the list changes, and on every tick.
             c.time_passes();
-            let it = c.declare_hidden(ELEMENT.to_string(), VarKind::Let, *inner, span);
+            let it = c.declare_hidden(element.node, VarKind::Let, *inner, span);
             let key = c.expr(key, None);
             (it, key)
         });

@@ -87,13 +87,13 @@ impl<'t> Checker<'t> {
         self.scope.visible.get(name)
     }
 
-    /// Makes a variable known from here on.
-    pub(super) fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
+    /// Says where a name would hide another, and how to mend that.
+    pub(super) fn name_is_new(&mut self, name: &tree::Name, help: &str) {
         let earlier = self.local(&name.node).map(|id| self.scope.vars[id].span);
         let finding = |what: &str| {
             Diagnostic::error(Code::NamesShadowed, name.span, format!("`{}` is the name of {what} already", name.node))
                 .here("nothing can be shadowed")
-                .help("choose another name")
+                .help(help)
         };
         let given = self.given_behavior(&name.node).map(|given| given.span());
         if let Some(span) = earlier.or(given) {
@@ -109,6 +109,11 @@ impl<'t> Checker<'t> {
             });
             self.findings.extend(hidden);
         }
+    }
+
+    /// Makes a variable known from here on.
+    pub(super) fn declare(&mut self, name: &tree::Name, kind: VarKind, ty: Type) -> VarId {
+        self.name_is_new(name, "choose another name");
         self.names_used.declare(name, kind);
         self.declare_hidden(name.node.clone(), kind, ty, name.span)
     }

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// A mission whose vehicle has lain on the bottom for so long, s, at once or again and again while it drove, is aborted: its recovery leads up.
 const AGROUND_MAX_S: f64 = 30.0;
+/// One that has lain there for so long in all, s, is no vehicle that was only launched from there.
+const LAUNCHED_MAX_S: f64 = 10.0;
 
 /// What is known of the vehicle on the bottom.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -17,9 +19,9 @@ pub(crate) struct Aground {
     driven_since: Option<u64>,
     /// For how many ticks it has lain there while the mission drove: what it does by a plan of its own is no mission's fault.
     driven: u64,
-    /// It has swum while the mission drove: one that is launched from the bottom has not run aground there.
+    /// The mission drove it in the last tick, and it swam.
     swam: bool,
-    /// It has come down on the bottom while the mission drove.
+    /// The mission drove it down on the bottom.
     struck: bool,
     /// The least depth at which it has lain, m.
     depth: Option<f64>,
@@ -29,18 +31,21 @@ impl Run {
     /// Takes in whether the vehicle lies on the bottom.
     pub fn feel_bottom(&mut self, aground: bool) {
         let tick = self.state.tick;
-        let since = |of: Option<u64>, lies: bool| lies.then(|| of.unwrap_or(tick));
-        let Aground { since: lain, driven_since, .. } = self.state.aground;
-        self.state.aground.since = since(lain, aground);
-        self.state.aground.driven_since = since(driven_since, aground && self.drives());
         let drives = self.drives();
-        self.state.aground.swam |= drives && !aground;
-        self.state.aground.driven += u64::from(aground && drives);
-        self.state.aground.struck |= drives && aground && self.state.aground.swam;
-        if aground {
-            let depth = self.depth();
-            self.state.aground.depth = Some(self.state.aground.depth.map_or(depth, |least| least.min(depth)));
-        }
+        let driven = aground && drives;
+        let since = |of: Option<u64>, lies: bool| lies.then(|| of.unwrap_or(tick));
+        let before = self.state.aground;
+        self.state.aground = Aground {
+            since: since(before.since, aground),
+            driven_since: since(before.driven_since, driven),
+            driven: before.driven + u64::from(driven),
+            swam: drives && !aground,
+            struck: before.struck || driven && before.swam,
+            depth: match aground {
+                true => Some(before.depth.map_or(self.depth(), |least| least.min(self.depth()))),
+                false => before.depth,
+            },
+        };
     }
 
     /// How deep a recovery may go whose vehicle has lain on the bottom, m: clear of where that was, whatever is asked.
@@ -74,12 +79,15 @@ impl Run {
     }
 
     fn why_aground(&self, outcome: Outcome) -> Option<&'static str> {
-        let Aground { since, struck, .. } = self.state.aground;
+        let Aground { since, driven, struck, .. } = self.state.aground;
         match outcome {
             Outcome::Completed | Outcome::TimedOut | Outcome::Aborted if since.is_some() => {
                 Some("the vehicle lies on the bottom")
             }
             Outcome::Completed if struck => Some("the vehicle struck the bottom"),
+            Outcome::Completed if driven as f64 * TICK_S >= LAUNCHED_MAX_S => {
+                Some("the vehicle has lain on the bottom")
+            }
             _ => None,
         }
     }

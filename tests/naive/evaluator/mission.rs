@@ -40,6 +40,8 @@ pub(super) struct Required {
 
 /// A vehicle that lies on the bottom for so long is stranded: 30 s.
 const STRANDED_TICKS: u64 = 300;
+/// One that lies there for so long in all was not only launched from there: 10 s.
+const LAUNCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
@@ -62,7 +64,7 @@ pub struct Evaluator<'p> {
     /// Since when the vehicle has lain on the bottom, and for how many ticks while it drove.
     aground: Option<u64>,
     lain_driven: u64,
-    /// It has swum while it drove, and then come down on the bottom.
+    /// It drove and swam in the last tick; it came down on the bottom while it drove.
     swam: bool,
     struck: bool,
     /// The least depth at which it has, m.
@@ -131,11 +133,10 @@ impl<'p> Evaluator<'p> {
         let asked = self.w.asked.vertical;
         self.bottom.hear(&self.w, asked);
         self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
-        if snapshot.control == Control::InControl {
-            self.lain_driven += u64::from(snapshot.aground);
-            self.struck |= self.swam && snapshot.aground;
-            self.swam |= !snapshot.aground;
-        }
+        let drives = snapshot.control == Control::InControl;
+        self.lain_driven += u64::from(drives && snapshot.aground);
+        self.struck |= drives && snapshot.aground && self.swam;
+        self.swam = drives && !snapshot.aground;
         if snapshot.aground {
             let depth = self.w.depth().unwrap_or(0.0);
             self.lain_at = Some(self.lain_at.map_or(depth, |least: f64| least.min(depth)));
@@ -424,9 +425,14 @@ impl<'p> Evaluator<'p> {
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
             let lies = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
-            let stranded = lies || self.struck && outcome == "completed";
+            let lain = self.lain_driven >= LAUNCHED_TICKS;
+            let stranded = lies || (self.struck || lain) && outcome == "completed";
             if stranded && outcome == "completed" {
-                let how = if lies { "lies on" } else { "struck" };
+                let how = match (lies, self.struck) {
+                    (true, _) => "lies on",
+                    (_, true) => "struck",
+                    _ => "has lain on",
+                };
                 self.w.say(format!("abort the vehicle {how} the bottom"));
             }
             self.recovery.leave(&mut self.w, Cause::Preempted);
