@@ -12,7 +12,7 @@ use std::time::Duration;
 const AGAIN: Duration = Duration::from_millis(300);
 
 /// Signals that end no program by themselves, that only stop one, that a library of the system keeps for
-/// itself, or that are an error of the disk.
+/// itself, or that the system itself sends for an error of the disk ([`hear_faults`] hears who else sends it).
 #[cfg(target_os = "linux")]
 const OTHERS: [i32; 12] = [
     signal::SIGPIPE,
@@ -148,7 +148,9 @@ static ENDS: LazyLock<[Arc<AtomicBool>; 2]> = LazyLock::new(|| [(); 2].map(|()| 
 #[cfg(unix)]
 pub fn survive_file_limits() {
     // Without a handler the limit ends the program at once, as it ends any other.
-    let _ = signal_hook::flag::register(signal::SIGXFSZ, Arc::default());
+    if is_heard(signal::SIGXFSZ, ignored()) {
+        let _ = signal_hook::flag::register(signal::SIGXFSZ, Arc::default());
+    }
 }
 
 /// There is no such thing.
@@ -239,12 +241,17 @@ fn hear(request: i32) {
 
 /// Hears what tells of a fault of the program's own, where somebody else sends it: call it before any other thread begins. No handler
 /// may return from a fault; but one that is blocked waits for who asks for it when it was sent, and ends the program as ever when it is met.
-/// What is lost is the word of an overflown stack.
+/// What is lost is the word of an overflown stack. So with the limit of a file's size: the system tells it to the thread that writes,
+/// where it stays blocked, and everybody else tells the program.
 #[cfg(unix)]
 pub fn hear_faults() {
     use nix::sys::signal::{SigSet, Signal};
     let mut faults = SigSet::empty();
     [Signal::SIGILL, Signal::SIGFPE, Signal::SIGSEGV, Signal::SIGBUS].into_iter().for_each(|fault| faults.add(fault));
+    // Elsewhere the system may tell it to the program.
+    if cfg!(target_os = "linux") && is_heard(signal::SIGXFSZ, ignored()) {
+        faults.add(Signal::SIGXFSZ);
+    }
     if faults.thread_block().is_err() {
         return;
     }
