@@ -2,7 +2,7 @@
 
 use crate::evaluator::exactly;
 use albacore_machine::{Event, Heard};
-use albacore_program::{Body, Program, Shape};
+use albacore_program::{Body, Program, Shape, Text};
 
 /// One line an event.
 pub fn lines(program: &Program, events: &[Event]) -> Vec<String> {
@@ -27,7 +27,7 @@ fn line(p: &Program, event: &Event) -> String {
                 .flatten()
                 .find(|entry| entry.activity == *from)
                 .map_or(&[][..], |entry| &entry.exits[*exit as usize].watched);
-            let mut said = named(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
+            let mut said = named(&p.texts, watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
             let words: u32 = watched.iter().map(|watched| watched.shape.words()).sum();
             if let Some(done) = values.get(words as usize) {
                 said += &format!("; done {done}");
@@ -36,12 +36,12 @@ fn line(p: &Program, event: &Event) -> String {
         }
         Event::Remembered(memory, words) => {
             let memory = &p.memories[*memory as usize];
-            format!("memory {}", exactly(&memory.name, &memory.value.shape, words))
+            format!("memory {}", exactly(&p.texts, &memory.name, &memory.value.shape, words))
         }
         Event::Reported(site, words) => {
             let site = &p.reports[*site as usize];
             let fields = site.fields.iter().map(|(label, field)| (label.as_str(), &field.shape));
-            format!("report {}: {}", site.name, named(fields, words))
+            format!("report {}: {}", site.name, named(&p.texts, fields, words))
         }
         Event::Began(statement, words) => {
             let rounds = words.chunks(3).map(|round| format!(" {} of {} at {}", round[0], round[1], round[2]));
@@ -78,12 +78,12 @@ fn line(p: &Program, event: &Event) -> String {
     }
 }
 
-fn named<'a>(fields: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
+fn named<'a>(texts: &[Text], fields: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
     let mut at = 0;
     let said = fields.map(|(name, shape)| {
         let words = &words[at..];
         at += shape.words() as usize;
-        exactly(name, shape, words)
+        exactly(texts, name, shape, words)
     });
     said.collect::<Vec<_>>().join(", ")
 }

@@ -3,7 +3,7 @@
 use super::{Checker, ParamInfo};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Expr, ExprKind, TextPart};
+use crate::hir::{Expr, ExprKind, without_holes};
 use crate::source::{Source, Span};
 use crate::syntax::tree;
 use crate::types::Type;
@@ -121,12 +121,8 @@ impl Checker<'_> {
 
     /// A text without values in it: a file is read before anything is known of a run.
     fn constant_text(&mut self, e: &Expr) -> Option<String> {
-        let literal = |part: &TextPart| match part {
-            TextPart::Literal(text) => Some(text.clone()),
-            TextPart::Hole(_) => None,
-        };
         let plain = match &e.kind {
-            ExprKind::Text(parts) => parts.iter().map(literal).collect(),
+            ExprKind::Text(parts) => without_holes(parts),
             _ => None,
         };
         if plain.is_none() && e.ty != Type::Unknown {

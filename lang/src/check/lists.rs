@@ -2,7 +2,6 @@
 
 use super::Checker;
 use super::expr::article;
-use super::operators::{TEXTS_DIFFER, TEXTS_HELP};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::hir::{Expr, ExprKind, Order, Stmt, StmtKind, VarKind};
@@ -73,10 +72,6 @@ impl<'t> Checker<'t> {
         } else {
             let [item] = self.positional::<1>(what, args, span)?;
             let item = self.expr_as(&item, &inner, "an element of this list");
-            if what == "remove" && self.types.shape(&inner).has_text() {
-                self.report(Diagnostic::error(Code::TypesComparison, span, TEXTS_DIFFER).help(TEXTS_HELP));
-                return None;
-            }
             if what == "insert" { StmtKind::Insert(id, item) } else { StmtKind::Remove(id, item) }
         };
         Some(Stmt { kind, span })

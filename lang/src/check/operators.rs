@@ -14,10 +14,6 @@ use albacore_arithmetic::{Div, Operation, Pow};
 
 pub(super) const ANGLE: Type = Type::Quantity(Dimension::ANGLE);
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
-/// Why nothing that holds a text is compared, and what is compared in its place.
-pub(super) const TEXTS_DIFFER: &str = "texts are not compared: two that read the same may be made of different parts";
-pub(super) const TEXTS_HELP: &str =
-    "keep what decides beside the text: an `enum` of what there is, a number, or whether there is one (`… != none`)";
 const TIME: Type = Type::Quantity(Dimension::TIME);
 const VECTOR: Type = Type::Vector(Dimension::LENGTH);
 
@@ -331,18 +327,6 @@ impl<'t> Checker<'t> {
             (Quantity(_), Heading) => (self.coerce(a, &Heading, "the other side"), b),
             _ => (a, b),
         };
-        // Texts are for people: two that read the same may be made of different parts.
-        let of_texts = |e: &Expr| !matches!(e.ty, None) && self.types.shape(&e.ty).has_text();
-        let is_presence = matches!((&a.ty, &b.ty), (Optional(_), None) | (None, Optional(_)));
-        if !is_presence && (of_texts(&a) || of_texts(&b)) {
-            let finding = Diagnostic::error(Code::TypesComparison, op.span, TEXTS_DIFFER)
-                .here(format!("`{}`", op.node.symbol()))
-                .label(a.span, format!("`{}`", self.type_name(&a.ty)))
-                .label(b.span, format!("`{}`", self.type_name(&b.ty)))
-                .help(TEXTS_HELP);
-            self.report(finding);
-            return self.unknown(span);
-        }
         // `p != none` is `p` as a condition, and narrows as that does.
         if let Some(optional) = match (&a.ty, &b.ty) {
             (Optional(_), None) => Some(a.clone()),
@@ -410,13 +394,20 @@ impl<'t> Checker<'t> {
             Binary::Pow => (Code::TypesPower, "make no power"),
             _ => (Code::TypesComparison, "cannot be compared"),
         };
-        let finding = Diagnostic::error(code, op.span, format!("{} and {} {verb}", article(&left), article(&right)))
+        // Those that can be compared otherwise are of one type.
+        let has_no_order = op.node.compares() && a.ty == b.ty;
+        let message = match has_no_order {
+            true => format!("{} has no order", article(&left)),
+            false => format!("{} and {} {verb}", article(&left), article(&right)),
+        };
+        let finding = Diagnostic::error(code, op.span, message)
             .here(format!("`{symbol}`"))
             .label(a.span, format!("`{left}`"))
             .label(b.span, format!("`{right}`"));
-        let help = match left == right && a.ty != b.ty {
-            true => Some(self.namesakes().to_string()),
-            false => self.operator_help(op.node, a, b),
+        let help = match (left == right, a.ty == b.ty) {
+            _ if has_no_order => Some("only `==` and `!=` compare two of them".to_string()),
+            (true, false) => Some(self.namesakes().to_string()),
+            _ => self.operator_help(op.node, a, b),
         };
         self.report(match help {
             Some(help) => finding.help(help),

@@ -183,12 +183,9 @@ impl<'t> Checker<'t> {
             return self.unknown(span);
         };
         let another = types.iter().find(|other| ***other != ty).map(|other| self.type_name(other));
-        if another.is_some() || *ty.present() == Type::Text {
+        if let Some(other) = another {
             let name = self.type_name(&ty);
-            let message = match another {
-                Some(other) => format!("this is reported as {} here, as {} there", article(&name), article(&other)),
-                None => format!("what is reported is {}, and no two texts can be compared", article(&name)),
-            };
+            let message = format!("this is reported as {} here, as {} there", article(&name), article(&other));
             let finding = Diagnostic::error(Code::TestsReport, at, message);
             self.report(finding.help("`has_reported` tells whether it was reported, `reported_at` when"));
             return self.unknown(span);

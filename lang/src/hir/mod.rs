@@ -233,6 +233,15 @@ pub enum TextPart {
     Hole(Expr),
 }
 
+/// A text as it is told, if it is the same whenever it is told.
+pub(crate) fn without_holes(parts: &[TextPart]) -> Option<String> {
+    let literal = |part: &TextPart| match part {
+        TextPart::Literal(text) => Some(text.clone()),
+        TextPart::Hole(_) => None,
+    };
+    parts.iter().map(literal).collect()
+}
+
 /// What is read of an input.
 #[derive(Clone, Debug)]
 pub enum InputPart {

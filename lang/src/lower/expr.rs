@@ -1,7 +1,7 @@
 //! Expressions to code.
 
 use super::{FnCode, Lowering};
-use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart};
+use crate::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart, without_holes};
 use crate::types::Type;
 use albacore_arithmetic::Operator;
 use albacore_program::{ABSOLUTE, AreaOp, Code, Compute, Input, ListOp, Op, Slot, Text, Valued};
@@ -340,6 +340,9 @@ impl<'a> Lowering<'a> {
 
     /// A text with its holes computed into slots of their own.
     pub(super) fn text(&mut self, parts: &[TextPart]) -> u32 {
+        if let Some(text) = without_holes(parts) {
+            return self.plain_text(text);
+        }
         let mut lowered = Vec::new();
         for part in parts {
             lowered.push(match part {
@@ -349,6 +352,15 @@ impl<'a> Lowering<'a> {
         }
         self.program.texts.push(Text { parts: lowered });
         self.program.texts.len() as u32 - 1
+    }
+
+    /// A text without holes, which stands once: two are the same where their places are.
+    pub(super) fn plain_text(&mut self, text: String) -> u32 {
+        let texts = &mut self.program.texts;
+        *self.texts.entry(text).or_insert_with_key(|text| {
+            texts.push(Text { parts: vec![albacore_program::TextPart::Literal(text.clone())] });
+            texts.len() as u32 - 1
+        })
     }
 
     /// A value in a slot of its own, with its shape.

@@ -32,7 +32,7 @@ use crate::source::{Sources, Span};
 use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_geometry::{Geodetic, Point, TangentFrame};
-use albacore_program::{ABSOLUTE, ActivityId, Addr, Claims, Input, Op, Program, Shape, Slot};
+use albacore_program::{ABSOLUTE, ActivityId, Addr, Claims, Input, Op, Program, Shape, Slot, Text, TextPart};
 use std::collections::BTreeMap;
 
 /// A lowered function.
@@ -77,6 +77,8 @@ struct UnitCode {
 pub struct Lowered {
     /// The mission.
     pub program: Program,
+    /// The places of its texts without holes.
+    pub texts: BTreeMap<String, u32>,
     /// What the checker takes its variables to be.
     pub claims: Claims,
     /// All its words, of which the program says no more than it can hold.
@@ -113,6 +115,8 @@ struct Lowering<'a> {
     constants_at: Option<Slot>,
     /// The places of constants among the program's, by their bits.
     constants: BTreeMap<u64, Slot>,
+    /// The places of texts without holes among the program's.
+    texts: BTreeMap<String, u32>,
     /// How many instructions there are. Those past the most that a program can hold are counted only: it is refused.
     emitted: u64,
 }
@@ -176,15 +180,16 @@ pub fn line(
     Ok(within_limits(Lowering { origin, ..Lowering::new(hir, types, sources) }, mission)?.program)
 }
 
-/// The same with arguments in place of the parameters' defaults.
+/// The same with arguments in place of the parameters' defaults, and the texts of another program where that has them.
 fn mission_with(
     hir: &Hir,
     types: &TypeTable,
     sources: &Sources,
-    mission: usize,
-    args: Option<&[hir::Expr]>,
+    (mission, args): (usize, &[hir::Expr]),
+    texts: &BTreeMap<String, u32>,
 ) -> Result<Lowered, Vec<Diagnostic>> {
-    within_limits(Lowering { mission_args: args, ..Lowering::new(hir, types, sources) }, mission)
+    let lowering = Lowering { mission_args: Some(args), ..Lowering::new(hir, types, sources) };
+    within_limits(lowering.with_texts(texts), mission)
 }
 
 /// A program that a machine can hold, and whose ticks end in time.
@@ -223,8 +228,20 @@ impl<'a> Lowering<'a> {
             mission_args: None,
             constants_at: None,
             constants: BTreeMap::new(),
+            texts: BTreeMap::new(),
             emitted: 0,
         }
+    }
+
+    /// The texts without holes of another program keep their places, so that a text of it is the same here.
+    fn with_texts(mut self, known: &BTreeMap<String, u32>) -> Self {
+        let places = known.values().max().map_or(0, |last| *last as usize + 1);
+        self.program.texts.resize(places, Text { parts: Vec::new() });
+        for (text, place) in known {
+            self.program.texts[*place as usize].parts.push(TextPart::Literal(text.clone()));
+        }
+        self.texts.clone_from(known);
+        self
     }
 
     /// A mission with what it is made of.
@@ -235,6 +252,7 @@ impl<'a> Lowering<'a> {
         }
         Ok(Lowered {
             program: self.program,
+            texts: self.texts,
             claims: self.claims,
             words,
             instructions: self.emitted,
@@ -356,6 +374,7 @@ impl<'a> Lowering<'a> {
         p.reports.truncate(mark.reports);
         p.statements.truncate(mark.statements);
         p.texts.truncate(mark.texts);
+        self.texts.retain(|_, place| (*place as usize) < mark.texts);
         p.memories.truncate(mark.memories);
         self.findings.truncate(mark.findings);
         self.claims.typed.truncate(mark.typed);

@@ -3,7 +3,7 @@
 use super::{Lowering, slot};
 use crate::cost::limits;
 use crate::diagnostic::Diagnostic;
-use crate::hir::{self, ClauseArg, ClauseUse, ExprKind, Hir, TextPart};
+use crate::hir::{self, ClauseArg, ClauseUse, ExprKind, Hir, without_holes};
 use crate::source::{Sources, Span};
 use crate::types::{Type, TypeTable};
 use albacore_geometry::Geodetic;
@@ -161,18 +161,8 @@ impl<'a> Lowering<'a> {
 /// A text that is written out, for a parameter that may be absent too.
 fn text(e: &hir::Expr) -> Option<String> {
     match &e.kind {
-        ExprKind::Text(parts) if e.ty == Type::Text => Some(plain(parts)),
+        ExprKind::Text(parts) if e.ty == Type::Text => without_holes(parts),
         ExprKind::Present(inner) => text(inner),
         _ => None,
     }
-}
-
-fn plain(parts: &[TextPart]) -> String {
-    parts
-        .iter()
-        .filter_map(|p| match p {
-            TextPart::Literal(text) => Some(text.as_str()),
-            TextPart::Hole(_) => None,
-        })
-        .collect()
 }

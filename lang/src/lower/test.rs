@@ -8,7 +8,7 @@ use crate::source::Sources;
 use crate::types::Type;
 use crate::types::TypeTable;
 use albacore_program::{ActivityId, Code, Program, Shape, Slot};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A test, ready to run.
 #[derive(Clone, Debug)]
@@ -111,9 +111,15 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     if let Some(finding) = limits::test_steps(hir, types, index) {
         return Err(vec![finding]);
     }
-    let run = |row: &Row| super::mission_with(hir, types, sources, test.mission, Some(&row.args));
-    let missions: Vec<Lowered> = test.rows.iter().map(run).collect::<Result<_, _>>()?;
-    let mut lowering = Lowering::new(hir, types, sources);
+    let mut missions: Vec<Lowered> = Vec::new();
+    // What the missions report is compared with texts of the test.
+    let mut texts = BTreeMap::new();
+    for row in &test.rows {
+        let mission = super::mission_with(hir, types, sources, (test.mission, &row.args), &texts)?;
+        texts.clone_from(&mission.texts);
+        missions.push(mission);
+    }
+    let mut lowering = Lowering::new(hir, types, sources).with_texts(&texts);
     lowering.origin = missions.first().and_then(|mission| mission.program.mission.origin);
     // What the mission is given changes no activity's place.
     let place = |id| missions.first().and_then(|mission| mission.activities.get(&id).copied());
@@ -234,11 +240,12 @@ fn depths<'e>(e: &Expr, known: &'e [(Expr, VarId)], out: &mut Vec<&'e (Expr, Var
     children(e, &mut |child| depths(child, known, out));
 }
 
-/// Both sides of the comparisons of a condition, but for numbers that it spells out.
+/// Both sides of the comparisons of a condition, but for numbers and texts that it spells out.
 fn compared<'e>(e: &'e Expr, sources: &Sources, out: &mut Vec<&'e Expr>) {
     let is_spelt_out = |side: &Expr| {
         let text = sources.text(side.span).trim_start_matches(['-', '+', ' ']);
-        side.range.constant().is_some() && text.starts_with(|c: char| c.is_ascii_digit())
+        let is_number = side.range.constant().is_some() && text.starts_with(|c: char| c.is_ascii_digit());
+        is_number || side.literal_text().is_some()
     };
     match &e.kind {
         // A comparison that is written as one value, such as `area.contains(place)`.

@@ -207,6 +207,17 @@ pub struct Text {
     pub parts: Vec<TextPart>,
 }
 
+impl Text {
+    /// The text as it is told, if it has no holes and is the same whenever it is told.
+    pub fn plain(&self) -> Option<String> {
+        let literal = |part: &TextPart| match part {
+            TextPart::Literal(literal) => Some(literal.clone()),
+            TextPart::Hole(_) => None,
+        };
+        self.parts.iter().map(literal).collect()
+    }
+}
+
 /// A part of a text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TextPart {

@@ -1,6 +1,6 @@
 //! The one place where numbers become text: fixed decimals for each unit, so that traces compare line by line.
 
-use crate::{AREA_CORNER_WORDS, Display, Shape, Text, TextPart, calendar};
+use crate::{AREA_CORNER_WORDS, Display, Shape, Text, calendar};
 use albacore_geometry::{Heading, Point, math};
 use albacore_vehicle::TICK_S;
 
@@ -220,12 +220,7 @@ impl Printer<'_> {
 /// A text by its index. It has no holes: such a text is no value.
 pub fn plain(texts: &[Text], word: f64) -> String {
     let Some(i) = index(word) else { return UNKNOWN.to_string() };
-    let Some(text) = texts.get(i) else { return format!("text {i}") };
-    let literal = |part: &TextPart| match part {
-        TextPart::Literal(literal) => Some(literal.clone()),
-        TextPart::Hole(_) => None,
-    };
-    text.parts.iter().filter_map(literal).collect()
+    texts.get(i).and_then(Text::plain).unwrap_or_else(|| format!("text {i}"))
 }
 
 /// A word that counts or points, unless it is none.

@@ -236,7 +236,7 @@ fn perform(w: &mut World<'_>, s: Scope<'_, '_>, stmt: &Stmt) {
             for (label, e) in fields {
                 let words = value(w, s, e).words(&w.shape(&e.ty));
                 bytes += size_of_val(words.as_slice());
-                said.push(exactly(label, &w.shape(&e.ty), &words));
+                said.push(exactly(&w.texts, label, &w.shape(&e.ty), &words));
             }
             w.pay(bytes);
             w.say(format!("report {name}: {}", said.join(", ")));

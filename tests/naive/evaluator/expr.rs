@@ -7,7 +7,7 @@ use super::world::World;
 use albacore_geometry::{Area, Edge, Grid, Heading, Point, Vector, math, run, wrap_angle};
 use albacore_lang::hir::{Block, Builtin, Expr, ExprKind, InputPart, TextPart, Var};
 use albacore_lang::types::Type;
-use albacore_program::{Shape, number};
+use albacore_program::{Shape, Text, number};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -414,7 +414,10 @@ fn exit(edges: &[Edge], from: Point, heading: Heading) -> Point {
     from + run(edges.iter().copied(), from, ray) * ray
 }
 
-/// Named values as the trace has them, exactly.
-pub fn exactly(name: &str, shape: &Shape, words: &[f64]) -> String {
-    format!("{name} = {:?}", Value::read(shape, words))
+/// Named values as the trace has them, exactly; what holds texts as it is told, for their places mean nothing.
+pub fn exactly(texts: &[Text], name: &str, shape: &Shape, words: &[f64]) -> String {
+    match shape.has_text() {
+        true => format!("{name} = {}", number::value_with(texts, shape, words)),
+        false => format!("{name} = {:?}", Value::read(shape, words)),
+    }
 }

@@ -80,7 +80,7 @@ impl<'p> Table<'p> {
         let mut watched = Vec::new();
         for (name, e) in leaves(w, owner, &rule.on) {
             let words = value(w, scope, e).words(&w.shape(&e.ty));
-            watched.push(exactly(&name, &w.shape(&e.ty), &words));
+            watched.push(exactly(&w.texts, &name, &w.shape(&e.ty), &words));
         }
         let mut said = watched.join(", ");
         let back = rule.back && !matches!(rule.target, Target::Behavior(to) if to == from);
@@ -177,7 +177,7 @@ fn remembered(w: &mut World<'_>, frame: &Frame<'_>, mut assigned: Vec<usize>) {
         if var.kind == VarKind::Memory {
             let shape = w.shape(&var.ty);
             let words = frame.get(id).words(&shape);
-            w.say(format!("memory {}", exactly(&var.name, &shape, &words)));
+            w.say(format!("memory {}", exactly(&w.texts, &var.name, &shape, &words)));
         }
     }
 }

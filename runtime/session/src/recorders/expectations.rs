@@ -8,7 +8,7 @@ use albacore_geometry::Point;
 use albacore_lang::hir::{Counted, OUTCOMES, ReportPart, TrueInput, When};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Event, Outcome};
-use albacore_program::{ActivityId, Display, Shape, number};
+use albacore_program::{ActivityId, Display, Shape, Text, number};
 use albacore_sim::Scenario;
 use albacore_trace::{Step, TickRecord, areas};
 use albacore_vehicle::{Measurement, Truth, seconds};
@@ -147,7 +147,7 @@ impl<'t> Expectations<'t> {
                 continue;
             }
             evaluation.run(&test.program, code.entry);
-            found.push(format!("{name} = {}", told(shape, evaluation.words(code.value, shape.words()))));
+            found.push(format!("{name} = {}", told(&test.program.texts, shape, evaluation.words(code.value, shape.words()))));
         }
         let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
         Some(format!("{found} ({when})"))
@@ -272,7 +272,7 @@ impl Recorder for Expectations<'_> {
 
 /// A value as it is told, one below its unit with more decimals: it may be held to some hundredths. A time that would be told as one that it only is
 /// very near to, as 5.0 - 4.1 is to 0.9, is told with all its digits: times are held to whole tenths.
-fn told(shape: &Shape, words: &[f64]) -> String {
+fn told(texts: &[Text], shape: &Shape, words: &[f64]) -> String {
     match (shape, words) {
         (Shape::Quantity(display), [x]) if display.unit == "s" && is_nearly_round(*x) => {
             format!("{x} {}", display.unit)
@@ -281,7 +281,7 @@ fn told(shape: &Shape, words: &[f64]) -> String {
             let finer = Display { decimals: display.decimals + 2, ..display.clone() };
             number::value(&Shape::Quantity(finer), words)
         }
-        _ => number::value(shape, words),
+        _ => number::value_with(texts, shape, words),
     }
 }
 
