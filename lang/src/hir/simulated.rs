@@ -115,7 +115,8 @@ pub struct TestNames<T> {
 }
 
 /// How a run of a test may have ended, by the names of the outcomes. One that has failed holds to nothing.
-pub const OUTCOMES: [&str; 6] = ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "aground"];
+pub const OUTCOMES: [&str; 7] =
+    ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "link_lost", "aground"];
 
 /// What a test asks of how the vehicle truly lies and moves, and of the water there: by the name of the input that tells it with errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
