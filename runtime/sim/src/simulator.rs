@@ -63,7 +63,7 @@ impl Simulator {
             measurements: scenario.measurements(),
             vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
             world,
-            instruments: Instruments::new(&scenario.instruments, start, seed),
+            instruments: Instruments::new(&scenario.instruments, &scenario.limits(), start, seed),
             endurance: vehicle.endurance,
             spent: false,
             front_seat: FrontSeat::new(

@@ -138,6 +138,8 @@ measurements! {
     TURN_RADIUS: MeasurementInfo::of("turn_radius", Quantity::Height).of_instrument("abilities");
     /// How fast it is through the water, at most.
     TOP_SPEED: MeasurementInfo::of("top_speed", Quantity::Speed).of_instrument("abilities");
+    /// The greatest depth that its own limits allow.
+    DEPTH_LIMIT: MeasurementInfo::of("depth_limit", Quantity::Height).of_instrument("abilities");
 }
 
 /// A measurement of ours by its number.

@@ -39,7 +39,7 @@ use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::Estimate;
-use albacore_vehicle::{Measurement, Snapshot, TICK_S, Truth, measurements};
+use albacore_vehicle::{Limits, Measurement, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
 use ctd::CtdProbe;
@@ -205,8 +205,8 @@ pub(crate) struct Instruments {
 }
 
 impl Instruments {
-    /// Those of a run that begins at a place.
-    pub fn new(setup: &InstrumentSetup, start: Point, seed: u64) -> Self {
+    /// Those of a run that begins at a place, aboard a vehicle with limits of its own.
+    pub fn new(setup: &InstrumentSetup, limits: &Limits, start: Point, seed: u64) -> Self {
         Instruments {
             navigation: OnboardNavigation::new(setup, start, seed),
             pressure: PressureGauge::new(&setup.pressure, seed),
@@ -217,7 +217,7 @@ impl Instruments {
             battery: BatteryGauge::new(&setup.battery, seed),
             clock: setup.date.clone().map(Clock),
             usbl: setup.usbl.as_ref().map(|usbl| UsblReceiver::new(usbl, seed)),
-            data_sheet: setup.abilities.clone().map(DataSheet),
+            data_sheet: setup.abilities.as_ref().map(|abilities| DataSheet::new(abilities, limits)),
             player: Player::new(&setup.played),
         }
     }

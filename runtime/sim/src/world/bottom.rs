@@ -4,6 +4,7 @@ mod grid;
 mod settings;
 
 pub(crate) use settings::check;
+pub(crate) use settings::DEEPEST_M;
 pub use settings::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 
 use albacore_geometry::Point;

@@ -105,7 +105,7 @@ pub struct NoGo {
 }
 
 /// The deepest trench, m.
-const DEEPEST_M: f64 = 11_000.0;
+pub(crate) const DEEPEST_M: f64 = 11_000.0;
 /// The depth of a hollow over its radius: beyond it a slope is steeper than 80 degrees.
 const STEEPEST: f64 = 10.0;
 
