@@ -56,7 +56,7 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
     let more: &[&str] = match ty {
         Type::Point => &["north", "east"],
         Type::Vector(_) => &["north", "east", "length", "toward", "dot"],
-        Type::Area => &["center", "hull", "edges", "rows", "corner", "contains", "run"],
+        Type::Area => &["center", "hull", "edges", "rows", "corner", "scattered", "contains", "run"],
         Type::Edge => &["normal", "line"],
         Type::Line => &["start", "end", "length", "heading"],
         Type::Map(..) => &["count", "cell"],
@@ -351,7 +351,7 @@ impl<'t> Checker<'t> {
         match (value.ty.clone(), member.node.as_str()) {
             (Type::Vector(d), "dot") => self.dot(value, d, args, span),
             (Type::Area, "rows") => self.only_walked("rows", "write `for row in area.rows(step) { … }`; how many there are counts a `var` of a function that walks them", span),
-            (Type::Area, name @ ("contains" | "run" | "corner")) => self.area_method(value, name, args, span),
+            (Type::Area, name @ ("contains" | "run" | "corner" | "scattered")) => self.area_method(value, name, args, span),
             (Type::List(inner, n), "top") => {
                 let Some([count]) = self.positional::<1>("top", args, span) else { return self.unknown(span) };
                 let count = self.expr_as(&count, &Type::Int, "the argument of `top`");
@@ -415,6 +415,8 @@ impl<'t> Checker<'t> {
         let params: &[(&str, Type)] = match name {
             "contains" => POINT_PARAM,
             "run" => &[("point", Type::Point), toward],
+            "scattered" if args.len() < 2 => &[("index", Type::Int)],
+            "scattered" => &[("index", Type::Int), ("seed", Type::Int)],
             // Without `near` the machine takes the centre.
             _ if args.len() < 2 => &[toward],
             _ => &[toward, ("near", Type::Point)],
@@ -432,6 +434,7 @@ impl<'t> Checker<'t> {
                 let run = self.operation(Builtin::Run, operands, VECTOR, span);
                 self.operation(Builtin::Length, vec![run], LENGTH, span)
             }
+            "scattered" => self.operation(Builtin::Scattered, operands, Type::Point, span),
             _ => self.operation(Builtin::Corner, operands, Type::Point, span),
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::hir::{Builtin, Expr};
 use crate::types::Type;
+use albacore_geometry::HALVINGS;
 
 /// So many pairs of edges are held against one another in a step: nearly all are told apart by a comparison.
 const PAIRS_A_STEP: u64 = 2;
@@ -16,6 +17,8 @@ pub(super) fn weight(op: Builtin, operands: &[Expr], corners: u64) -> u64 {
         Builtin::Hull => corners + in_order(corners),
         // How far the edges are, and which of them lie to the east.
         Builtin::Gap => 2 * corners,
+        // What lies to the south of a line, for each halving of where it is.
+        Builtin::Scattered => u64::from(HALVINGS + 2) * corners,
         // And which of them a ray leaves over.
         Builtin::Exit | Builtin::Run => 3 * corners,
         Builtin::Center | Builtin::Corner | Builtin::NearestEdge => corners,

@@ -321,6 +321,8 @@ pub enum Builtin {
     Gap,
     /// An area, a heading, a point: its centre when none is given.
     Corner,
+    /// An area, an index, a seed: 0 when none is given.
+    Scattered,
     NearestEdge,
     EdgeGap,
     EdgeDistance,

@@ -290,6 +290,10 @@ impl<'a> Lowering<'a> {
                 let near = if slots.len() > 2 { c } else { self.center_of(a) };
                 AreaOp::Corner { to, area: a, heading: b, near }.into()
             }
+            B::Scattered => {
+                let seed = if slots.len() > 2 { c } else { self.number(0.0) };
+                AreaOp::Scattered { to, area: a, index: b, seed }.into()
+            }
             B::NearestEdge => AreaOp::NearestEdge { to, area: a, point: b }.into(),
             B::EdgeGap => Compute::EdgeGap { to, edge: a, point: b }.into(),
             B::EdgeDistance => AreaOp::EdgeDistance { to, edge: a, point: b }.into(),

@@ -419,6 +419,10 @@ fn result(op: Builtin, operands: &[Value]) -> Option<Value> {
             };
             Pair(farthest_corner(area.corners(), Heading::from_radians(*heading), near))
         }
+        (Builtin::Scattered, [Area(area), Number(index), seed @ ..]) => {
+            let seed = if let [Number(seed)] = seed { *seed } else { 0.0 };
+            Pair(albacore_geometry::scattered(area.edges(), *index, seed))
+        }
         _ => return None,
     })
 }

@@ -14,6 +14,7 @@ mod mercator;
 mod outline;
 mod plane;
 mod rows;
+mod scatter;
 
 pub use area::{
     AREA_CORNERS_MAX, AREA_REACH_MAX_M, AREA_WIDTH_MIN_M, Area, AreaError, Edge, PLACE_MAX_M, farthest_corner, gap,
@@ -26,3 +27,4 @@ pub use grid::Grid;
 pub use heading::{Heading, wrap_angle};
 pub use plane::{Line, Point, Vector};
 pub use rows::{Place, ROWS_MAX, Rows};
+pub use scatter::{HALVINGS, scattered};

@@ -4,7 +4,7 @@ use crate::execute::truth;
 use crate::state::Run;
 use albacore_arithmetic::bounded;
 use albacore_geometry::{
-    Area, Edge, Heading, Line, Place, Point, Rows, Vector, farthest_corner, gap, is_convex, nearest_edge, run,
+    Area, Edge, Heading, Line, Place, Point, Rows, Vector, farthest_corner, gap, is_convex, nearest_edge, run, scattered,
 };
 use albacore_program::{AREA_CORNER_WORDS, ROWS_WORDS, Slot, area_words};
 
@@ -154,6 +154,11 @@ impl Run {
             let hull = Area::around(&self.corner_points(area));
             self.set_area(to, room, Some(&hull));
         }
+    }
+
+    /// The place of an index among those that are scattered over an area.
+    pub fn scattered(&self, area: Slot, index: f64, seed: f64) -> Point {
+        scattered(self.edges_of(area), index, seed)
     }
 
     /// Where a ray from a point leaves the area; the point itself when it is outside.

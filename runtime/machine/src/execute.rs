@@ -180,6 +180,10 @@ impl Run {
                 let tangent = self.edge(b(edge)).tangent(self.heading_at(b(heading)));
                 self.set(b(to), tangent.radians());
             }
+            AreaOp::Scattered { to, area, index, seed } => {
+                let place = self.scattered(b(area), self.get(b(index)), self.get(b(seed)));
+                self.set_point(b(to), place);
+            }
             AreaOp::Exit { to, area, point, heading } => {
                 let exit = self.exit(b(area), self.point(b(point)), self.heading_at(b(heading)));
                 self.set_point(b(to), exit);

@@ -246,6 +246,10 @@ fn of_area(op: Builtin, operands: &[Value]) -> Option<Value> {
             let near = operands.get(2).map_or_else(|| center(at(0).edges()), Value::point);
             Value::of_point(corner(at(0).edges(), at(1).heading(), near))
         }
+        B::Scattered => {
+            let seed = operands.get(2).map_or(0.0, |_| n(2));
+            Value::of_point(albacore_geometry::scattered(at(0).edges().iter().copied(), n(1), seed))
+        }
         B::NearestEdge => Value::of_edge(nearest_edge(at(0).edges(), at(1).point())),
         B::EdgeGap => Value::Number(fits(at(0).edge().gap(at(1).point()))),
         B::EdgeDistance => Value::Number(fits(at(0).edge().distance(at(1).point()))),
@@ -305,7 +309,7 @@ fn builtin(op: Builtin, operands: &[Value]) -> Value {
         B::Dot => fits(at(0).vector().dot(at(1).vector())),
         B::Along => fits(at(0).vector().along(at(1).heading())),
         B::Pair | B::Line => return Value::Parts(operands.to_vec()),
-        B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::NearestEdge => {
+        B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::Scattered | B::NearestEdge => {
             unreachable!("`of_area` has it")
         }
         B::EdgeGap | B::EdgeDistance | B::Exit | B::Run => unreachable!("`of_area` has it"),

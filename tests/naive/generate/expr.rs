@@ -223,6 +223,7 @@ impl Generator {
             Ty::Heading => r.of(&["($H + $A)", "($H - $A)", "($V).toward", "($P - $P).toward", "turned($H, $M)"]),
             Ty::Point if self.has_area && senses && r.percent(30) => r.of(&[
                 "op.corner(toward: $H)",
+                "op.scattered($I, seed: $I)",
                 "op.hull.exit($P, toward: $H)",
                 "op.exit($P, toward: $H)",
                 "op.nearest_edge($P).line.end",

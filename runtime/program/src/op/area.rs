@@ -80,6 +80,13 @@ pub enum AreaOp {
         edge: Slot,
         heading: Slot,
     },
+    /// The place of an index among those that are scattered over the area.
+    Scattered {
+        to: Slot,
+        area: Slot,
+        index: Slot,
+        seed: Slot,
+    },
     /// Where a ray from a point leaves the area: the point itself from outside.
     Exit {
         to: Slot,
