@@ -27,7 +27,8 @@ fn line(p: &Program, event: &Event) -> String {
                 .flatten()
                 .find(|entry| entry.activity == *from)
                 .map_or(&[][..], |entry| &entry.exits[*exit as usize].watched);
-            let mut said = named(&p.texts, watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
+            let mut said =
+                named(&p.texts, watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values);
             let words: u32 = watched.iter().map(|watched| watched.shape.words()).sum();
             if let Some(done) = values.get(words as usize) {
                 said += &format!("; done {done}");

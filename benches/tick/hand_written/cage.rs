@@ -17,12 +17,20 @@ impl Cage {
     }
 
     /// Far outside.
-    pub fn left(&self, position: Point) -> bool {
-        gap(self.edges.iter().copied(), position) < -BEYOND
+    pub fn is_left(inside: f64) -> bool {
+        inside < -BEYOND
+    }
+
+    /// To the nearest edge, m; negative outside.
+    pub fn inside(&self, position: Point) -> f64 {
+        gap(self.edges.iter().copied(), position)
     }
 
     /// The course that does not lead out.
-    pub fn amend(&self, asked: Heading, position: Point, heading: Heading) -> Heading {
+    pub fn amend(&self, asked: Heading, inside: f64, position: Point, heading: Heading) -> Heading {
+        if inside >= BAND {
+            return asked;
+        }
         let mut go = asked.unit();
         let mut home = Vector::ZERO;
         for edge in &self.edges {

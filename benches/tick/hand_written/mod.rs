@@ -32,6 +32,8 @@ const STRATEGY_TICKS: u64 = 90 * 60 * 10;
 pub struct Mission {
     area: Area,
     cage: Cage,
+    /// How far inside the cage the vehicle is in this tick, m.
+    inside: f64,
     senses: Senses,
     freshness: Freshness,
     asked: Asked,
@@ -65,6 +67,7 @@ impl Mission {
         let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
         Some(Mission {
             cage: Cage::new(&area),
+            inside: 0.0,
             area,
             senses: Senses::new(),
             freshness: Freshness::default(),
@@ -95,6 +98,7 @@ impl Mission {
     }
 
     fn drive(&mut self) -> Option<Command> {
+        self.inside = self.cage.inside(self.senses.position);
         match self.doing {
             Doing::Over => return None,
             Doing::Waiting if self.senses.complete() => {
@@ -115,7 +119,7 @@ impl Mission {
             senses::Verdict::Abort => return self.over(),
         }
         let time_is_up = self.tick - self.began >= MISSION_TICKS;
-        if self.cage.left(self.senses.position) || !self.go_on() || time_is_up {
+        if Cage::is_left(self.inside) || !self.go_on() || time_is_up {
             return self.over();
         }
         Some(self.command())
@@ -171,7 +175,7 @@ impl Mission {
     /// Cage, limits, command filter, flow compensation.
     fn command(&mut self) -> Command {
         let Asked { course: asked, over_ground, speed, vertical } = self.asked;
-        let amended = self.cage.amend(asked, self.senses.position, self.senses.heading);
+        let amended = self.cage.amend(asked, self.inside, self.senses.position, self.senses.heading);
         let speed = speed.min(SPEED_MAX);
         let vertical = match vertical {
             Vertical::Altitude(metres) => Vertical::Altitude(metres.max(ALTITUDE_MIN)),

@@ -202,7 +202,7 @@ impl Said {
 pub(super) fn derived(base: Said, own: Said) -> Said {
     let mut all = base.own;
     let names_vehicle = own.own.iter().any(|clause| clause.name == super::vehicle::CLAUSE);
-    let subject = |clause: &ClauseUse| (clause.name.clone(), thing(clause).map(str::to_string));
+    let subject = |clause: &ClauseUse| (clause.name.clone(), thing(clause));
     // What happens in a time stands beside what else happens.
     let mut places = BTreeMap::new();
     for (at, clause) in all.iter().enumerate().filter(|(_, clause)| !happens(clause)) {
@@ -226,7 +226,7 @@ pub(super) fn happens(clause: &ClauseUse) -> bool {
 }
 
 /// The name of the thing that a clause is about, where there may be several.
-fn thing(clause: &ClauseUse) -> Option<&str> {
+fn thing(clause: &ClauseUse) -> Option<String> {
     let (_, ClauseArg::Value(name)) = clause.args.first().filter(|(param, _)| param == "name")? else { return None };
     name.literal_text()
 }

@@ -56,7 +56,7 @@ impl Checker<'_> {
         let named = clauses.filter(|clause| clause.name == CLAUSE).filter_map(|clause| clause.args.first());
         let unknown = named.filter_map(|(_, arg)| match arg {
             ClauseArg::Value(value) => {
-                Some((value.literal_text()?.to_string(), value.span)).filter(|(name, _)| !known.contains(name))
+                Some((value.literal_text()?, value.span)).filter(|(name, _)| !known.contains(name))
             }
             _ => None,
         });

@@ -6,6 +6,7 @@ mod operator;
 mod position;
 mod same;
 mod simulated;
+mod text;
 mod walk;
 
 pub use activity::{Activity, Body, Decl, Kind, Mission, Recording, Require, Rule, Target, leaving};
@@ -17,6 +18,8 @@ pub use simulated::{
     ClauseArg, ClauseUse, Counted, Expect, OUTCOMES, ReportPart, Row, Scenario, Test, TestNames, TrueInput, When,
     test_file_name,
 };
+pub use text::TextPart;
+pub(crate) use text::without_holes;
 pub use walk::{activity_children, block_children, calls_in, children};
 
 use crate::source::Span;
@@ -155,17 +158,6 @@ pub struct Expr {
 }
 
 impl Expr {
-    /// The text that it is, if it is one without holes.
-    pub fn literal_text(&self) -> Option<&str> {
-        match &self.kind {
-            ExprKind::Text(parts) => match parts.as_slice() {
-                [TextPart::Literal(text)] => Some(text),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
-
     /// The value of an optional that is known to be present; what is never absent is its own value. This is the only place
     /// that makes an [`ExprKind::Unwrap`], so that none stands over a value without a presence.
     pub fn unwrapped(self) -> Expr {
@@ -223,23 +215,6 @@ pub enum ExprKind {
     After(Box<Expr>),
     /// `every T`, in the condition of a rule or a reaction.
     Every(Box<Expr>),
-}
-
-/// A piece of a text.
-#[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "each variant is what it says")]
-pub enum TextPart {
-    Literal(String),
-    Hole(Expr),
-}
-
-/// A text as it is told, if it is the same whenever it is told.
-pub(crate) fn without_holes(parts: &[TextPart]) -> Option<String> {
-    let literal = |part: &TextPart| match part {
-        TextPart::Literal(text) => Some(text.clone()),
-        TextPart::Hole(_) => None,
-    };
-    parts.iter().map(literal).collect()
 }
 
 /// What is read of an input.

@@ -38,7 +38,9 @@ impl Builtin {
             B::Lt | B::Le | B::Eq | B::Not | B::And | B::Or => return None,
             B::AddVector | B::SubVector | B::Scale | B::Toward | B::Pair | B::Line => return None,
             B::Direction | B::Gap | B::EdgeGap | B::EdgeDistance | B::EdgeTangent => return None,
-            B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::Scattered | B::NearestEdge | B::Exit => return None,
+            B::Rectangle | B::Polygon | B::Hull | B::Center | B::Corner | B::Scattered | B::NearestEdge | B::Exit => {
+                return None;
+            }
             B::Top | B::At | B::Map | B::Cell | B::VectorQuotient | B::LineVector | B::Run => return None,
         })
     }

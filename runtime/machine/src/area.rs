@@ -4,7 +4,8 @@ use crate::execute::truth;
 use crate::state::Run;
 use albacore_arithmetic::bounded;
 use albacore_geometry::{
-    Area, Edge, Heading, Line, Place, Point, Rows, Vector, farthest_corner, gap, is_convex, nearest_edge, run, scattered,
+    Area, Edge, Heading, Line, Place, Point, Rows, Vector, farthest_corner, gap, is_convex, nearest_edge, run,
+    scattered,
 };
 use albacore_program::{AREA_CORNER_WORDS, ROWS_WORDS, Slot, area_words};
 

@@ -10,7 +10,7 @@ use crate::least::LeastOfLate;
 use crate::slope::{SLOPE_MAX, Slope};
 use crate::state::{Limits, Run};
 use albacore_geometry::Point;
-use albacore_program::{Channel, Input, LIMIT_FRESH_S, Program, Slot, senses};
+use albacore_program::{Channel, Input, LIMIT_FRESH_S, Slot};
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -243,12 +243,12 @@ impl Run {
 
     /// Holds what is asked of the vertical within the limits. Depth and altitude are bound to one another by the water's depth:
     /// the limits of both hold, whichever is asked for. Of two that cannot both hold, the one that leads up does.
-    pub fn limit_vertical(&mut self, p: &Program, asked: Vertical) -> Vertical {
+    pub fn limit_vertical(&mut self, asked: Vertical) -> Vertical {
         let Limits { altitude, depth, .. } = self.state.limits;
         self.state.bottom.begun.get_or_insert(self.state.tick);
-        let known = self.heard_lately(p);
+        let known = self.heard_lately();
         let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
-        let floor = self.floor(p, altitude.0).min(deepest);
+        let floor = self.floor(altitude.0).min(deepest);
         let is_lost = known.is_none() && altitude.0 > 0.0;
         self.tell_of_bottom(is_lost, floor);
         // Who is told to be deeper than any command can have led has a depth that is told wrong: with a bottom that is lost, it goes up.
@@ -348,15 +348,8 @@ impl Run {
     }
 
     /// What the latest echo told, unless it is too old to count.
-    fn heard_lately(&self, p: &Program) -> Option<Heard> {
-        let required = p.mission.requires.iter().zip(&self.state.requires);
-        let fresh = required
-            .filter(|(require, _)| {
-                matches!(&*p.inputs[require.input as usize].name, senses::ALTITUDE | senses::WATER_DEPTH)
-            })
-            .map(|(_, numbers)| numbers.fresh)
-            .fold(LIMIT_FRESH_S / TICK_S, f64::min);
-        let doubted = self.state.bottom.doubted;
+    fn heard_lately(&self) -> Option<Heard> {
+        let (fresh, doubted) = (self.state.echo_fresh, self.state.bottom.doubted);
         let fresh = |heard: &Heard| if heard.confirmed && !doubted { fresh } else { fresh.min(DOUBTFUL_S / TICK_S) };
         let age = |heard: &Heard| (self.state.tick - heard.tick + self.state.lag.round_trip) as f64;
         let counts = |heard: &Heard| (heard.agrees || self.has_just_begun()) && age(heard) <= fresh(heard);
@@ -387,7 +380,7 @@ impl Run {
     /// By how much the vehicle is deeper than it may be, m, as far as that is known: by its depth, and without one by its altitude. Without
     /// either it is taken to be as deep as it was: nothing tells that it rises. Of a bottom that is lost it is known that it may rise on
     /// the way.
-    pub fn too_deep(&self, p: &Program) -> Option<f64> {
+    pub fn too_deep(&self) -> Option<f64> {
         let least = self.state.limits.altitude.0;
         let told = |stamp: f64| stamp >= 0.0;
         let fresh = |stamp: f64| told(stamp) && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
@@ -401,7 +394,7 @@ impl Run {
             }
             _ => {}
         }
-        let by_altitude = match (self.heard_before(), self.heard_lately(p)) {
+        let by_altitude = match (self.heard_before(), self.heard_lately()) {
             (_, Some(heard)) => heard.water - self.ahead(least),
             (Some(heard), None) if least > 0.0 => self.risen(heard, least),
             (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
@@ -419,8 +412,8 @@ impl Run {
     }
 
     /// How deep the vehicle may go by a least altitude, m.
-    fn floor(&self, p: &Program, altitude_min: f64) -> f64 {
-        let floor = match (self.heard_before(), self.heard_lately(p)) {
+    fn floor(&self, altitude_min: f64) -> f64 {
+        let floor = match (self.heard_before(), self.heard_lately()) {
             (_, Some(heard)) => heard.water.min(self.still_water()) - self.ahead(altitude_min),
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
             (Some(heard), None) => {

@@ -7,6 +7,9 @@ use albacore_guidance::{CommandFilter, through_water};
 use albacore_program::{ActivityKind, Body, Channel, Code, Program, Slot, TURN_RATE_MIN, header};
 use albacore_vehicle::{Command, TICK_S};
 
+/// A course that is amended by no more than this, in radians, is the one that was asked: an overlay that computes it has rounded.
+const AMENDMENT_MIN_RAD: f64 = 1e-9;
+
 /// An amendment smaller than this, in radians, is not worth a line of trace; it ends below half of it.
 const AMENDMENT_TOLD_RAD: f64 = 0.02;
 
@@ -24,7 +27,7 @@ impl Run {
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
-        let vertical = self.limit_vertical(p, asked.vertical);
+        let vertical = self.limit_vertical(asked.vertical);
         let mut filter = CommandFilter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
@@ -36,7 +39,7 @@ impl Run {
         } else {
             (course, speed.max(0.0))
         };
-        let command = Command { heading, speed: self.lift(speed, vertical, p), vertical };
+        let command = Command { heading, speed: self.lift(speed, vertical), vertical };
         self.state.command = Some(command);
         command
     }
@@ -118,7 +121,7 @@ impl Run {
         } else if change < AMENDMENT_TOLD_RAD / 2.0 {
             self.end_amending(p, overlay, base);
         }
-        given
+        if change > AMENDMENT_MIN_RAD { given } else { asked }
     }
 
     /// The active activities from outside in, with the bases of their frames.

@@ -32,8 +32,31 @@ impl std::fmt::Display for MissingInput {
 
 impl std::error::Error for MissingInput {}
 
-/// For each measurement of the vehicle the input that reads it.
-pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Vec<Option<u32>>, MissingInput> {
+/// How the measurements of a vehicle reach the inputs of a program. It holds in a few bytes what every sample needs of its input.
+#[derive(Clone)]
+pub(crate) struct Wiring {
+    /// For each measurement the input that reads it.
+    wires: Vec<Option<Wire>>,
+    /// Where the blocks of all inputs are.
+    blocks: Vec<Slot>,
+}
+
+/// The input that reads a measurement.
+#[derive(Clone, Copy)]
+struct Wire {
+    /// Its place among the program's.
+    input: u32,
+    /// Where its block is, and the layout of that.
+    at: Slot,
+    words: u32,
+    width: u32,
+    kept: u32,
+    /// Whether it holds what is counted, which not every number can be.
+    counts: bool,
+}
+
+/// The wiring of a program, if the vehicle delivers what its mission needs.
+pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Wiring, MissingInput> {
     let required = program.mission.requires.iter().map(|require| (require.input, "requires"));
     let recorded =
         program.recordings.iter().flat_map(|recording| &recording.inputs).map(|(input, _)| (*input, "records"));
@@ -44,9 +67,14 @@ pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<
             return Err(MissingInput { name: name.clone(), wanted, delivered });
         }
     }
-    let input =
-        |measurement: &Measurement| program.inputs.iter().position(|i| i.name == measurement.name).map(|i| i as u32);
-    Ok(measurements.iter().map(input).collect())
+    let wire = |measurement: &Measurement| {
+        let place = program.inputs.iter().position(|input| input.name == measurement.name)?;
+        let input = &program.inputs[place];
+        let Input { at, width, kept, .. } = *input;
+        Some(Wire { input: place as u32, at, words: input.words(), width, kept, counts: input.counts() })
+    };
+    let wires = measurements.iter().map(wire).collect();
+    Ok(Wiring { wires, blocks: program.inputs.iter().map(|input| input.at).collect() })
 }
 
 /// Where guidance finds what it reads.
@@ -82,11 +110,11 @@ impl Run {
 
     /// Takes in the samples of a tick. A sample that no value of its input can be is as if it had not come: the checker's
     /// ranges hold for what is taken in.
-    pub fn take_in(&mut self, program: &Program, wiring: &[Option<u32>], samples: &[Sample]) {
-        for input in &program.inputs {
+    pub fn take_in(&mut self, program: &Program, wiring: &Wiring, samples: &[Sample]) {
+        for &at in &wiring.blocks {
             // Until a sample comes the peak is the latest value.
-            let value = self.get(input.at + Input::VALUE);
-            self.set(input.at + Input::PEAK, value);
+            let value = self.get(at + Input::VALUE);
+            self.set(at + Input::PEAK, value);
         }
         let tick = self.state.tick as f64;
         let mut is_echo = true;
@@ -98,22 +126,25 @@ impl Run {
             if sample.input_measurement() == POSITION || sample.is_doubted_of(POSITION) {
                 self.state.bottom.doubt_place(sample.is_doubted_of(POSITION));
             }
-            let Some(Some(index)) = wiring.get(sample.input_measurement() as usize) else { continue };
-            let input = &program.inputs[*index as usize];
-            let width = (input.width as usize).min(sample.reading.len());
+            let Some(Some(wire)) = wiring.wires.get(sample.input_measurement() as usize) else { continue };
+            let width = (wire.width as usize).min(sample.reading.len());
             let numbers = &sample.reading[..width];
-            if !input.admits(numbers) {
+            let is_admitted = match wire.counts {
+                true => program.inputs[wire.input as usize].admits(numbers),
+                false => Input::is_bounded(numbers),
+            };
+            if !is_admitted {
                 continue;
             }
             // The block is found once, not anew for each of its words.
-            let block = self.state.words.get_mut(input.at as usize..(input.at + input.words()) as usize);
+            let block = self.state.words.get_mut(wire.at as usize..(wire.at + wire.words) as usize);
             let Some([stamp, peak, count, values @ ..]) = block else { continue };
             *peak = if *stamp == tick { peak.max(numbers[0]) } else { numbers[0] };
             *stamp = tick;
             values[..width].copy_from_slice(numbers);
-            if input.kept > 0 {
-                let place = (*count as u64 % u64::from(input.kept)) as usize;
-                values[input.width as usize + place] = numbers[0];
+            if wire.kept > 0 {
+                let place = (*count as u64 % u64::from(wire.kept)) as usize;
+                values[wire.width as usize + place] = numbers[0];
             }
             *count += 1.0;
         }

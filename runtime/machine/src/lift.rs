@@ -3,7 +3,6 @@
 use crate::Event;
 use crate::sinking::Sinking;
 use crate::state::Run;
-use albacore_program::Program;
 use albacore_vehicle::{TICK_S, Vertical};
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +56,7 @@ pub(crate) struct Deep {
 impl Run {
     /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than its limits allow
     /// and does not rise; as far as the limit of speed lets it.
-    pub fn lift(&mut self, asked: f64, vertical: Vertical, p: &Program) -> f64 {
+    pub fn lift(&mut self, asked: f64, vertical: Vertical) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         let (tick, depth) = (self.state.tick, self.depth());
@@ -73,7 +72,7 @@ impl Run {
             true => Sinking::from(tick, depth),
             false => self.state.sinking.after(tick, depth),
         };
-        if let Some(by) = self.too_deep(p).filter(|_| speed > 0.0) {
+        if let Some(by) = self.too_deep().filter(|_| speed > 0.0) {
             let by = by + self.state.sinking.ahead();
             let now = Deep { by, depth, altitude: self.sounded(), is_low: self.is_low() };
             let before = if is_anew { before.anew(tick, now) } else { before };

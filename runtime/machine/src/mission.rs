@@ -4,7 +4,7 @@ use crate::activity::Status;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
-use crate::inputs::{MissingInput, senses, wiring};
+use crate::inputs::{MissingInput, Wiring, senses, wiring};
 use crate::lift::Lift;
 use crate::rest::Rest;
 use crate::sinking::Sinking;
@@ -12,15 +12,15 @@ use crate::state::{Asked, ControlRequest, Declared, Limits, Overridden, Phase, R
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
-use albacore_program::{Cause, Code, Input, Program, Slot, header};
-use albacore_vehicle::{Command, Control, Lag, Measurement, Sample, Snapshot};
+use albacore_program::{Cause, Code, Input, LIMIT_FRESH_S, Program, Slot, header};
+use albacore_vehicle::{Command, Control, Lag, Measurement, Sample, Snapshot, TICK_S};
 use std::sync::Arc;
 
 /// Executes one mission.
 #[derive(Clone)]
 pub struct Machine {
     program: Arc<Program>,
-    wiring: Vec<Option<u32>>,
+    wiring: Wiring,
     run: Run,
 }
 
@@ -54,6 +54,7 @@ impl Run {
             depth_agrees: false,
             limited: Default::default(),
             requires: Vec::new(),
+            echo_fresh: LIMIT_FRESH_S / TICK_S,
             link: Requirement::LINK,
             lagged: 0,
             lag: Lag::default(),

@@ -3,7 +3,7 @@
 use crate::activity::Status;
 use crate::state::{Phase, Requirement, Run};
 use crate::{Event, Outcome};
-use albacore_program::{Input, LIMIT_FRESH_S, Program, Slot};
+use albacore_program::{Input, LIMIT_FRESH_S, Program, Slot, senses};
 use albacore_vehicle::measurements::{DEPTH, info};
 use albacore_vehicle::{Command, TICK_S};
 
@@ -87,6 +87,9 @@ impl Run {
         for require in &p.mission.requires {
             let fresh = self.number(p, &require.fresh);
             let patience = require.hold_for.as_ref().map(|code| self.number(p, code));
+            if matches!(&*p.inputs[require.input as usize].name, senses::ALTITUDE | senses::WATER_DEPTH) {
+                self.state.echo_fresh = self.state.echo_fresh.min(fresh);
+            }
             requires.push(Requirement { fresh, patience, stale: false, since: 0 });
         }
         self.state.requires = requires;

@@ -55,6 +55,8 @@ pub struct State {
     pub(crate) limited: [bool; Channel::ALL.len()],
     /// For each requirement the ticks of its freshness and of its patience, and whether it is stale.
     pub(crate) requires: Vec<Requirement>,
+    /// For so many ticks an echo tells where the bottom is: as long as the mission takes an altitude for fresh, or as the limits do.
+    pub(crate) echo_fresh: f64,
     /// The same of the vehicle's link: the longest round trip for freshness.
     pub(crate) link: Requirement,
     /// For how long it has taken longer, half ticks: a tick within it makes up for half a tick beyond.

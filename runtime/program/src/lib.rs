@@ -222,12 +222,27 @@ impl Input {
     /// Whether a sample can be a value of this input, with its further fields as far as it has them.
     pub fn admits(&self, sample: &[f64]) -> bool {
         let mut rest = sample;
-        sample.iter().all(|x| Interval::ANY.holds(*x))
-            && std::iter::once(&self.shape).chain(&self.fields).all(|shape| {
+        Self::is_bounded(sample)
+            && self.shapes().all(|shape| {
                 let Some((value, after)) = rest.split_at_checked(shape.words() as usize) else { return true };
                 rest = after;
                 shape.admits(value)
             })
+    }
+
+    /// Whether no number of a sample is larger than is kept: where nothing is counted that is all that is asked of it.
+    #[inline]
+    pub fn is_bounded(sample: &[f64]) -> bool {
+        sample.iter().all(|x| Interval::ANY.holds(*x))
+    }
+
+    /// Whether some of its numbers count something, or say whether.
+    pub fn counts(&self) -> bool {
+        self.shapes().any(Shape::counts)
+    }
+
+    fn shapes(&self) -> impl Iterator<Item = &Shape> {
+        std::iter::once(&self.shape).chain(&self.fields)
     }
 
     /// The words of its block.

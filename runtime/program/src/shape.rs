@@ -116,6 +116,16 @@ impl Shape {
         }
     }
 
+    /// Whether some of its words count something, or say whether: not every number is such a value.
+    pub fn counts(&self) -> bool {
+        match self {
+            Shape::Bool | Shape::Int | Shape::Enum(_) => true,
+            Shape::Record(_, fields) => fields.iter().any(|(_, shape)| shape.counts()),
+            Shape::Optional(shape) | Shape::List(shape, _) | Shape::Map(shape, _) => shape.counts(),
+            _ => false,
+        }
+    }
+
     /// Whether words can be such a value: what is counted is whole, and no number is larger than is kept.
     pub fn admits(&self, words: &[f64]) -> bool {
         let whole = |x: f64, range: Interval| x.fract() == 0.0 && range.holds(x);

@@ -404,7 +404,8 @@ impl<'p> Activation<'p> {
         } else if change < TOLD_RAD / 2.0 {
             self.end_amending(w);
         }
-        given
+        // What was computed of the course that was asked is that course, but for rounding.
+        if change > 1e-9 { given } else { asked }
     }
 
     /// Rule 12: the overlays of what is about to wait amend nothing until that goes on; from inner to outer.

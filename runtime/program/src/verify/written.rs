@@ -97,9 +97,10 @@ fn of_area(op: AreaOp) -> Rows {
     match op {
         AreaOp::Rectangle { to, room, .. } | AreaOp::Hull { to, room, .. } => one((to, area_words(room))),
         AreaOp::Polygon { to, room, ok, .. } => both((to, area_words(room)), (ok, 1)),
-        AreaOp::Center { to, .. } | AreaOp::Corner { to, .. } | AreaOp::Scattered { to, .. } | AreaOp::Exit { to, .. } => {
-            one((to, 2))
-        }
+        AreaOp::Center { to, .. }
+        | AreaOp::Corner { to, .. }
+        | AreaOp::Scattered { to, .. }
+        | AreaOp::Exit { to, .. } => one((to, 2)),
         AreaOp::NearestEdge { to, .. } => one((to, EDGE_WORDS)),
         AreaOp::Rows { to, .. } => one((to, ROWS_WORDS)),
         AreaOp::RowAt { to, place, .. } => both((to, 4), (place, ROW_PLACE_WORDS)),

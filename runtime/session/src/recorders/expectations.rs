@@ -147,7 +147,10 @@ impl<'t> Expectations<'t> {
                 continue;
             }
             evaluation.run(&test.program, code.entry);
-            found.push(format!("{name} = {}", told(&test.program.texts, shape, evaluation.words(code.value, shape.words()))));
+            found.push(format!(
+                "{name} = {}",
+                told(&test.program.texts, shape, evaluation.words(code.value, shape.words()))
+            ));
         }
         let found = if found.is_empty() { "it does not hold".to_string() } else { found.join(", ") };
         Some(format!("{found} ({when})"))

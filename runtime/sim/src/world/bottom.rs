@@ -3,8 +3,8 @@
 mod grid;
 mod settings;
 
-pub(crate) use settings::check;
 pub(crate) use settings::DEEPEST_M;
+pub(crate) use settings::check;
 pub use settings::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 
 use albacore_geometry::Point;
