@@ -12,9 +12,9 @@ use std::path::Path;
 /// compiler or the machine: whoever changes it says why.
 const PINNED: [(&str, &str); 4] = [
     ("missions/box.alb", "83c8b3d1fef02bc9"),
-    ("missions/deepest_point.alb", "b0b4c5fe98fb5105"),
-    ("missions/duck_single.alb", "555e0b3670cdf093"),
-    ("missions/duck_single_2005.alb", "28dc0c7d5f4f6e56"),
+    ("missions/deepest_point.alb", "0826dabf025a930b"),
+    ("missions/duck_single.alb", "64f545ef2cfeed14"),
+    ("missions/duck_single_2005.alb", "c23d753d5575c2a7"),
 ];
 
 fn plan(path: &str) -> Plan {
