@@ -39,6 +39,11 @@ impl Run {
         self.state.wish == ControlRequest::Drive && self.state.control == Control::InControl
     }
 
+    /// Whether the vehicle is ours, though an override may not have heard of that yet.
+    pub fn is_ours(&self) -> bool {
+        self.state.wish != ControlRequest::Listen && self.state.control == Control::InControl
+    }
+
     /// Rule 6: at the very start the present heading and depth, speed 0.
     pub fn stand(&mut self) {
         self.state.stands = true;
