@@ -83,6 +83,9 @@ impl Generator {
     }
 
     fn guest_statements(&mut self, most: usize) {
+        if self.nested == 1 || self.random.percent(30) {
+            self.overriding();
+        }
         for _ in 0..1 + self.random.below(most) {
             self.guest_statement();
         }
