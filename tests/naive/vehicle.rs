@@ -1,5 +1,6 @@
 //! A vehicle that goes where it is told, ten times as fast as it should, and whose sensors and link are as bad as chance has it.
 
+use crate::host::{Host, PLAN};
 use crate::random::Random;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::{
@@ -49,6 +50,9 @@ pub struct Chance {
     /// What its payload will answer, and in which tick.
     answers: Vec<(u64, Answer)>,
     whim: Random,
+    /// It runs a plan of its own, and is driven when it likes.
+    host: Option<Host>,
+    told: Control,
 }
 
 impl Chance {
@@ -57,6 +61,11 @@ impl Chance {
         let mut vehicle = Chance { is_absurd: true, ..Chance::new(seed) };
         vehicle.measurements.push(Measurement { name: "told".to_string(), ..vehicle.measurements[0].clone() });
         vehicle
+    }
+
+    /// One with a plan of its own.
+    pub fn host(seed: u64) -> Self {
+        Chance { host: Some(Host::new(seed)), first_driven: 0, ..Chance::new(seed) }
     }
 
     pub fn new(seed: u64) -> Self {
@@ -82,11 +91,16 @@ impl Chance {
             first_driven: 1 + random.bits() % 3,
             answers: Vec::new(),
             whim: Random::new(seed, 3),
+            host: None,
+            told: Control::Monitoring,
             random,
         }
     }
 
     fn live(&mut self) {
+        if self.host.is_some() && !matches!(self.told, Control::InControl | Control::Suspended) {
+            self.command = PLAN;
+        }
         let way = HASTE * self.command.speed * TICK_S;
         self.position += way * self.command.heading.unit();
         let goal = match self.command.vertical {
@@ -159,20 +173,24 @@ impl Vehicle for Chance {
         snapshot.control = match self.end {
             Some((tick, control)) if self.tick >= tick => control,
             _ if self.tick < self.first_driven => Control::Monitoring,
+            _ if self.host.is_some() => self.host.as_mut().map_or(Control::InControl, Host::tick),
             _ if self.tick < self.suspended => Control::Suspended,
             _ => Control::InControl,
         };
+        self.told = snapshot.control;
         self.tick += 1;
         Ok(())
     }
 
     fn take_over(&mut self) -> Result<(), VehicleError> {
+        self.host.iter_mut().for_each(Host::take_over);
         Ok(())
     }
 
     fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
         self.command = *command;
-        Ok(())
+        let is_ours = self.told == Control::InControl;
+        is_ours.then_some(()).ok_or_else(|| VehicleError("a command, and nobody has let us drive".to_string()))
     }
 
     /// One in five is never answered, and some are answered twice, or by what nobody asked.
@@ -189,6 +207,7 @@ impl Vehicle for Chance {
     }
 
     fn give_back(&mut self) -> Result<(), VehicleError> {
+        self.host.iter_mut().for_each(Host::give_back);
         Ok(())
     }
 

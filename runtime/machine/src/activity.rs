@@ -394,8 +394,8 @@ impl Run {
 
     pub fn cut_call(&mut self, p: &Program, call: u32, base: Slot, cause: Cause) {
         let site = &p.calls[call as usize];
-        self.set_caller(p, call, base, 0.0);
         self.leave(p, site.activity, base + site.base, cause);
+        self.set_caller(p, call, base, 0.0);
     }
 
     fn set_caller(&mut self, p: &Program, call: u32, base: Slot, child: f64) {

@@ -79,6 +79,15 @@ impl Run {
         }
     }
 
+    /// The same without what they keep.
+    pub fn end_amendments(&mut self, p: &Program, chain: &[(u32, Slot)]) {
+        for (id, base) in chain.iter().rev() {
+            for &overlay in &p.activities[*id as usize].overlays {
+                self.end_amending(p, overlay, *base);
+            }
+        }
+    }
+
     /// An overlay is left or paused: it leaves the course alone, and keeps nothing in this tick.
     pub fn fall_silent(&mut self, p: &Program, overlay: u32, base: Slot) {
         self.end_amending(p, overlay, base);

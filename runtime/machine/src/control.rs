@@ -39,6 +39,11 @@ impl Run {
         self.state.wish == ControlRequest::Drive && self.state.control == Control::InControl
     }
 
+    /// Whether the vehicle is ours, though an override may not have heard of that yet.
+    pub fn is_ours(&self) -> bool {
+        self.state.wish != ControlRequest::Listen && self.state.control == Control::InControl
+    }
+
     /// Rule 6: at the very start the present heading and depth, speed 0.
     pub fn stand(&mut self) {
         self.state.stands = true;
@@ -56,9 +61,10 @@ impl Run {
 
     /// What became of the question: whether the vehicle is ours, and whether it has refused.
     pub fn answer(&mut self, offered: bool) -> (bool, bool) {
+        let has_asked = self.state.wish != ControlRequest::Listen;
         match self.state.control {
-            Control::InControl => (self.state.wish != ControlRequest::Listen, false),
-            Control::Refused => (false, true),
+            Control::InControl => (has_asked, false),
+            Control::Refused => (false, has_asked),
             Control::Offered if offered => {
                 self.state.wish = ControlRequest::Ask;
                 (false, false)
@@ -87,7 +93,8 @@ impl Run {
         self.state.wish = ControlRequest::Listen;
         let mut chain = Vec::new();
         self.chain(p, &mut |id, base| chain.push((id, base)));
-        self.pause_overlays(p, &chain);
+        // What they keep stays, for a recovery that goes on driving.
+        self.end_amendments(p, &chain);
         let limited = std::mem::take(&mut self.state.limited);
         for (channel, limited) in Channel::ALL.into_iter().zip(limited) {
             if limited {

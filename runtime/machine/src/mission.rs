@@ -360,11 +360,10 @@ impl Run {
     }
 
     /// Leaves all that is inside the mission and begins the recovery; without one the mission is over, and so is that of a
-    /// guest while its vehicle runs its own plan, or has suspended it.
+    /// guest while its vehicle runs its own plan, or has suspended it. A vehicle may be ours for which an override still waits.
     pub fn recover(&mut self, p: &Program, outcome: Outcome) -> Option<Command> {
         self.abort = None;
-        let wish = self.state.wish;
-        let is_ours = self.drives();
+        let (is_ours, drives) = (self.is_ours(), self.drives());
         let cause = if outcome == Outcome::TimedOut { Cause::TimedOut } else { Cause::Aborted };
         let (id, base) = (p.mission.activity, p.mission.base);
         let at = base + p.activities[id as usize].header;
@@ -372,7 +371,10 @@ impl Run {
         let Some(recovery) = p.mission.recovery.filter(|_| is_ours) else {
             return self.over(p, outcome);
         };
-        self.state.wish = wish;
+        self.state.wish = ControlRequest::Drive;
+        if !drives {
+            self.stand();
+        }
         // Frozen now, as every time limit is (rule 4).
         self.begin_to_count();
         self.state.within = recovery.within.as_ref().map(|code| self.number(p, code));

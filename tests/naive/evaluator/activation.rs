@@ -1,6 +1,7 @@
 //! An activation: a behavior, strategy, overlay, mission or recovery that is active, with all that is inside it.
 
-use super::body::{Stop, Todo, advance, at_once, beginning};
+use super::body::{Stop, Todo, advance, at_once, rounds_under_way};
+use super::control::{Place, unread};
 use super::expr::{Frame, Scope, block, holds, text, value};
 use super::table::Table;
 use super::timed::{Doing, End, Setpoints, Underway};
@@ -13,7 +14,17 @@ use albacore_lang::types::Type;
 use albacore_program::{Axis, Cause, TURN_RATE_MIN};
 
 /// Why the mission is aborted.
-pub struct Aborted(pub String);
+pub struct Aborted {
+    pub why: String,
+    /// Rule 18: what the run ends as where nobody has read how an override ended.
+    pub ends_as: Option<&'static str>,
+}
+
+impl Aborted {
+    pub fn because(why: String) -> Self {
+        Aborted { why, ends_as: None }
+    }
+}
 
 pub struct Activation<'p> {
     pub activity: &'p Activity,
@@ -29,14 +40,22 @@ pub struct Activation<'p> {
     conditions: Watch<'p>,
     /// Of its reactions, and of its rules.
     pub rhythms: Rhythms,
-    /// Overlays by the `with` that put them on, inner ones last; those of the declarations are the first. With each the
-    /// setpoints that come back into force when it ends.
-    worn: Vec<(Vec<Activation<'p>>, Setpoints)>,
+    /// Overlays by the `with` that put them on, inner ones last; those of the declarations are the first.
+    worn: Vec<Worn<'p>>,
     pub inside: Inside<'p>,
     /// It began and has not been left.
-    is_active: bool,
-    /// An overlay: the trace has been told that it changes the course.
-    is_amending: bool,
+    pub is_active: bool,
+    /// An overlay: its place among those that are worn.
+    place: Place,
+    /// The block of an override: the rounds of the loops around that.
+    pub rounds: String,
+}
+
+struct Worn<'p> {
+    overlays: Vec<Activation<'p>>,
+    /// The setpoints that come back into force when the `with` ends.
+    before: Setpoints,
+    count: u64,
 }
 
 pub enum Inside<'p> {
@@ -65,8 +84,14 @@ impl<'p> Activation<'p> {
             worn: Vec::new(),
             inside,
             is_active: false,
-            is_amending: false,
+            place: Place::default(),
+            rounds: String::new(),
         }
+    }
+
+    fn open_with(&mut self, w: &mut World<'p>) {
+        w.withs += 1;
+        self.worn.push(Worn { overlays: Vec::new(), before: self.setpoints, count: w.withs });
     }
 
     fn title(&self) -> String {
@@ -78,7 +103,7 @@ impl<'p> Activation<'p> {
         let activity = self.activity;
         w.say(format!("enter {}", self.title()));
         self.is_active = true;
-        self.worn.push((Vec::new(), self.setpoints));
+        self.open_with(w);
         let frame = self.frame.clone();
         for decl in &activity.decls {
             let condition = if let Decl::Signal(_, e) = decl { vec![e] } else { Vec::new() };
@@ -175,7 +200,7 @@ impl<'p> Activation<'p> {
     fn test_aborts(&mut self, w: &mut World<'p>) -> Result<(), Aborted> {
         for (why, condition) in &self.activity.aborts {
             if !w.is_recovering && holds(w, self.scope(), condition) {
-                return Err(Aborted(text(w, self.scope(), why)));
+                return Err(Aborted::because(text(w, self.scope(), why)));
             }
         }
         Ok(())
@@ -214,16 +239,17 @@ impl<'p> Activation<'p> {
             match advance(w, &frame, todo) {
                 Stop::End => return Ok(true),
                 Stop::Timed(timed, span) => {
-                    if self.tells(timed, todo) {
-                        w.say(beginning(w, &frame, todo, span));
+                    let rounds = format!("{}{}", self.rounds, rounds_under_way(&frame, todo));
+                    if self.tells(timed, &rounds) {
+                        w.say(format!("begin {}{rounds}", w.sources.place(span)));
                     }
-                    let mut underway = Underway::new(w, self, timed);
+                    let mut underway = Underway::new(w, self, timed, rounds);
                     let begun = underway.first(w, &frame, self.is_overlay);
                     todo.push(Todo::Timed(Box::new(underway)));
                     return begun.map(|()| false);
                 }
                 Stop::Underway(mut underway) => match underway.step(w, &frame, self.age, self.is_overlay) {
-                    Ok(Some(end)) => self.end_statement(w, *underway, &end),
+                    Ok(Some(end)) => self.end_statement(w, *underway, &end)?,
                     unfinished => {
                         todo.push(Todo::Timed(underway));
                         return unfinished.map(|_| false);
@@ -232,7 +258,7 @@ impl<'p> Activation<'p> {
                 Stop::With(items, body) => {
                     todo.push(Todo::EndWith);
                     todo.push(Todo::Stmts(&body.stmts));
-                    self.worn.push((Vec::new(), self.setpoints));
+                    self.open_with(w);
                     self.put_on(w, items)?;
                 }
                 Stop::EndWith => self.end_with(w, Cause::Done),
@@ -241,18 +267,17 @@ impl<'p> Activation<'p> {
                     todo.clear();
                     return Ok(true);
                 }
-                Stop::Abort(why) => return Err(Aborted(text(w, Scope::of(&frame), why))),
+                Stop::Abort(why) => return Err(Aborted::because(text(w, Scope::of(&frame), why))),
             }
         }
     }
 
     /// Whether a statement is told when it begins: not beside what is active, and not what is told by another event. Of a call that is what
     /// it enters, but for the rounds.
-    fn tells(&self, timed: &Timed, todo: &[Todo<'_>]) -> bool {
-        let is_round = todo.iter().any(|around| matches!(around, Todo::Again(..) | Todo::Rounds(..)));
+    fn tells(&self, timed: &Timed, rounds: &str) -> bool {
         let is_told = match timed.action {
             Action::Ask(..) | Action::Override(_) => false,
-            Action::Call(..) => is_round,
+            Action::Call(..) => !rounds.is_empty(),
             Action::Guide(..) | Action::Keep(..) | Action::Watch => true,
         };
         let does_one_thing = self.activity.kind == Kind::Behavior
@@ -260,17 +285,18 @@ impl<'p> Activation<'p> {
         is_told && !self.is_overlay && !does_one_thing
     }
 
-    fn end_statement(&mut self, w: &mut World<'p>, mut underway: Underway<'p>, end: &End) {
+    fn end_statement(&mut self, w: &mut World<'p>, mut underway: Underway<'p>, end: &End) -> Result<(), Aborted> {
         let outcome = underway.outcome(w, end);
         if let (Doing::Ask(action, ..), End::Cut(_)) = (&underway.doing, end) {
             w.say(format!("answer {action} none"));
         }
-        if let Doing::Call(called) = &mut underway.doing {
-            called.leave(w, if let End::Cut(cause) = end { *cause } else { Cause::Done });
+        underway.doing.leave(w, if let End::Cut(cause) = end { *cause } else { Cause::Done });
+        match (underway.timed.result, &underway.doing) {
+            (Some(var), _) => self.frame.set(var, outcome),
+            (None, Doing::Override(_)) => unread(outcome.number())?,
+            (None, _) => {}
         }
-        if let Some(var) = underway.timed.result {
-            self.frame.set(var, outcome);
-        }
+        Ok(())
     }
 
     /// Setpoints and overlays in force, to the end of the innermost `with`.
@@ -286,9 +312,10 @@ impl<'p> Activation<'p> {
                     let args = super::expr::values(w, Scope::of(&self.frame), args);
                     let frame = Frame::new(w, &activity.vars, args);
                     let overlay = Activation::new(activity, frame, Setpoints::default(), true);
-                    let Some((worn, _)) = self.worn.last_mut() else { continue };
-                    worn.push(overlay);
-                    if let Some(overlay) = worn.last_mut() {
+                    let Some(worn) = self.worn.last_mut() else { continue };
+                    let place = Place::new(worn.count, worn.overlays.len());
+                    worn.overlays.push(Activation { place, ..overlay });
+                    if let Some(overlay) = worn.overlays.last_mut() {
                         overlay.begin(w)?;
                     }
                 }
@@ -298,9 +325,9 @@ impl<'p> Activation<'p> {
     }
 
     fn end_with(&mut self, w: &mut World<'p>, cause: Cause) {
-        if let Some((worn, setpoints)) = self.worn.pop() {
-            self.setpoints = setpoints;
-            for mut overlay in worn {
+        if let Some(worn) = self.worn.pop() {
+            self.setpoints = worn.before;
+            for mut overlay in worn.overlays {
                 overlay.take_off(w, cause);
             }
         }
@@ -308,7 +335,7 @@ impl<'p> Activation<'p> {
 
     /// Overlays from inner to outer; of several in one `with` the later is the outer one.
     fn overlays(&mut self) -> impl Iterator<Item = &mut Activation<'p>> {
-        self.worn.iter_mut().rev().flat_map(|(worn, _)| worn)
+        self.worn.iter_mut().rev().flat_map(|worn| &mut worn.overlays)
     }
 
     pub fn step_overlays(&mut self, w: &mut World<'p>) -> Result<(), Aborted> {
@@ -335,8 +362,8 @@ impl<'p> Activation<'p> {
     }
 
     fn end_amending(&mut self, w: &mut World<'p>) {
-        if std::mem::take(&mut self.is_amending) {
-            w.say(format!("amend {} no more", self.activity.name));
+        if let Some(name) = w.amending.remove(&self.place) {
+            w.say(format!("amend {name} no more"));
         }
     }
 
@@ -360,10 +387,8 @@ impl<'p> Activation<'p> {
         match &mut self.inside {
             Inside::Sequence(todo) => {
                 for todo in std::mem::take(todo) {
-                    if let Todo::Timed(mut underway) = todo
-                        && let Doing::Call(called) = &mut underway.doing
-                    {
-                        called.leave(w, cause);
+                    if let Todo::Timed(mut underway) = todo {
+                        underway.doing.leave(w, cause);
                     }
                 }
             }
@@ -398,8 +423,8 @@ impl<'p> Activation<'p> {
         // An amendment smaller than this is not worth a line of trace; it ends below half of it.
         const TOLD_RAD: f64 = 0.02;
         let change = (given - asked).abs();
-        if !self.is_amending && change > TOLD_RAD {
-            self.is_amending = true;
+        if change > TOLD_RAD && !w.amending.contains_key(&self.place) {
+            w.amending.insert(self.place, self.activity.name.clone());
             w.say(format!("amend {} {:?} {:?}", self.activity.name, asked.radians(), given.radians()));
         } else if change < TOLD_RAD / 2.0 {
             self.end_amending(w);
@@ -422,10 +447,7 @@ impl<'p> Activation<'p> {
     fn called(&mut self) -> Option<&mut Activation<'p>> {
         match &mut self.inside {
             Inside::Sequence(todo) => match todo.last_mut() {
-                Some(Todo::Timed(underway)) => match &mut underway.doing {
-                    Doing::Call(called) => Some(called),
-                    _ => None,
-                },
+                Some(Todo::Timed(underway)) => underway.doing.called(),
                 _ => None,
             },
             Inside::Table(table) => table.active(),

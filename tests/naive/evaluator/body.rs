@@ -126,10 +126,10 @@ pub fn advance<'b>(w: &mut World<'_>, frame: &Frame<'_>, todo: &mut Vec<Todo<'b>
     Stop::End
 }
 
-/// What is said of a statement that begins: where it stands, and of each loop around it the round, of how many, and the number that
-/// it counts; of what has still to be done those loops are a part.
-pub fn beginning(w: &World<'_>, frame: &Frame<'_>, todo: &[Todo<'_>], span: Span) -> String {
-    let mut said = format!("begin {}", w.sources.place(span));
+/// Of each loop around a statement that begins the round, of how many, and the number that it counts; of what has still to be done
+/// those loops are a part.
+pub fn rounds_under_way(frame: &Frame<'_>, todo: &[Todo<'_>]) -> String {
+    let mut said = String::new();
     for around in todo {
         match around {
             Todo::Again(_, rounds) => said += &format!(" {rounds} of 0 at 0"),

@@ -185,7 +185,7 @@ impl Evaluator<'_> {
             (_, Vertical::Depth(depth)) => sum.map_or(clamped, |sum| sum - depth),
             (_, Vertical::Altitude(_)) => wanted,
         };
-        let slack = if self.limited[channel as usize] { 0.0 } else { 0.5 };
+        let slack = if self.w.limited[channel as usize] { 0.0 } else { 0.5 };
         let held = clamped != wanted || (got - wanted).abs() > slack;
         self.say_limited(channel, held.then_some((wanted, got)));
     }

@@ -1,19 +1,21 @@
 //! A mission's life: rules 2, 6 and 17, and what section 8 of the reference says of `requires`, `limits` and the recovery.
 
 use super::activation::{Aborted, Activation};
+use super::aground::Aground;
 use super::bottom::Bottom;
+use super::control::{Controlled, Request, is_guest};
 use super::expr::{Frame, Scope, number, value};
 use super::lift::Lift;
 use super::origin;
 use super::rest::Rest;
 use super::timed::Setpoints;
 use super::world::{Asked, FirstDepths, World, ticks};
-use albacore_guidance::{CommandFilter, through_water};
+use albacore_guidance::through_water;
 use albacore_lang::hir::{Activity, ActivityId, Expr, Hir, Mission};
 use albacore_lang::source::Sources;
 use albacore_lang::types::TypeTable;
 use albacore_program::{Cause, Channel};
-use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S};
 
 /// Where a mission is in its life.
 #[derive(Clone, Copy, PartialEq)]
@@ -38,10 +40,6 @@ pub(super) struct Required {
     stale_since: Option<u64>,
 }
 
-/// A vehicle that lies on the bottom for so long is stranded: 30 s.
-const STRANDED_TICKS: u64 = 300;
-/// One that lies there for so long in all was not only launched from there: 10 s.
-const LAUNCHED_TICKS: u64 = 100;
 /// The naive evaluator of one mission.
 pub struct Evaluator<'p> {
     pub w: World<'p>,
@@ -57,22 +55,12 @@ pub struct Evaluator<'p> {
     pub(super) required: Vec<Required>,
     /// Least and greatest, by channel.
     pub(super) limits: [(f64, f64); 3],
-    pub(super) limited: [bool; 3],
-    filter: CommandFilter,
     pub(super) bottom: Bottom,
     pub(super) lift: Lift,
-    /// Since when the vehicle has lain on the bottom, and for how many ticks while it drove.
-    aground: Option<u64>,
-    lain_driven: u64,
-    /// It drove and swam in the last tick; it came down on the bottom while it drove.
-    swam: bool,
-    struck: bool,
-    /// The least depth at which it has, m.
-    lain_at: Option<f64>,
+    pub(super) aground: Aground,
     /// Rule 6: whether the heading and depth of the very start have been taken.
     stands: bool,
     first_depths: FirstDepths,
-    control: Control,
     rest: Rest,
 }
 
@@ -80,12 +68,13 @@ impl<'p> Evaluator<'p> {
     pub fn new(
         (hir, types, id): (&'p Hir, &'p TypeTable, ActivityId),
         sources: &'p Sources,
-        recovery: &'p Activity,
+        (recovery, override_block): (&'p Activity, &'p Activity),
         sensors: &'p [Measurement],
     ) -> Option<Self> {
         let activity = &hir.activities[id];
         let declared = activity.mission.as_ref()?;
-        let w = World::new(hir, types, sources, origin::of(activity));
+        let control = Controlled::new(is_guest(hir, id));
+        let w = World::new((hir, types, sources), origin::of(activity), control, override_block);
         let frame = Frame::new(&w, &activity.vars, Vec::new());
         Some(Evaluator {
             sensors,
@@ -98,18 +87,11 @@ impl<'p> Evaluator<'p> {
             recovery_within: None,
             required: Vec::new(),
             limits: [(0.0, f64::MAX); 3],
-            limited: [false; 3],
-            filter: CommandFilter::new(w.heading()),
             bottom: Bottom::default(),
             lift: Lift::default(),
-            aground: None,
-            lain_driven: 0,
-            swam: false,
-            struck: false,
-            lain_at: None,
+            aground: Aground::default(),
             stands: false,
             first_depths: FirstDepths::default(),
-            control: Control::Disconnected,
             rest: Rest::default(),
             w,
         })
@@ -117,6 +99,12 @@ impl<'p> Evaluator<'p> {
 
     pub fn is_over(&self) -> bool {
         self.phase == Phase::Over
+    }
+
+    /// What is asked of the vehicle itself: before the first tick, and after each.
+    pub fn requests(&mut self) -> Vec<Request> {
+        let is_over = self.is_over();
+        self.w.control.requests(is_over)
     }
 
     /// One tick.
@@ -127,24 +115,13 @@ impl<'p> Evaluator<'p> {
         self.w.way_back = None;
         self.w.earn();
         self.w.sense(self.sensors, &snapshot.samples);
+        self.w.hear_control(snapshot.control);
         self.w.questions = 0;
         self.w.hear(&snapshot.answers);
         self.w.tell_elapsed(if self.phase == Phase::Waiting { 0 } else { self.w.tick - self.began });
         let asked = self.w.asked.vertical;
         self.bottom.hear(&self.w, asked);
-        self.aground = if snapshot.aground { self.aground.or(Some(self.w.tick)) } else { None };
-        let drives = snapshot.control == Control::InControl;
-        self.lain_driven += u64::from(drives && snapshot.aground);
-        self.struck |= drives && snapshot.aground && self.swam;
-        self.swam = drives && !snapshot.aground;
-        if snapshot.aground {
-            let depth = self.w.depth().unwrap_or(0.0);
-            self.lain_at = Some(self.lain_at.map_or(depth, |least: f64| least.min(depth)));
-        }
-        if snapshot.control != self.control {
-            self.control = snapshot.control;
-            self.w.say(format!("control {:?}", self.control));
-        }
+        self.feel_bottom(snapshot.aground);
         let command = self.live();
         if !self.is_over() {
             self.rest.tick(&mut self.w);
@@ -155,12 +132,15 @@ impl<'p> Evaluator<'p> {
 
     fn live(&mut self) -> Option<Command> {
         let began = self.phase != Phase::Waiting;
-        match self.control {
+        let looks_on = self.w.control.is_guest && !matches!(self.phase, Phase::Recovering(..));
+        match self.w.control.shown {
             Control::InControl => {}
-            Control::Refused => return self.over("refused", Cause::Aborted),
-            Control::Released if began => return self.over("released_by_vehicle", Cause::Aborted),
             Control::TimedOut => return self.over("link_lost", Cause::Aborted),
             Control::Disconnected if began => return self.over("link_lost", Cause::Aborted),
+            // Rule 18: a guest lives on whoever drives; its overrides hear of it.
+            control if looks_on && control != Control::Disconnected => {}
+            Control::Refused => return self.over("refused", Cause::Aborted),
+            Control::Released if began => return self.over("released_by_vehicle", Cause::Aborted),
             _ => return self.stand_by(),
         }
         if self.phase == Phase::Waiting {
@@ -228,14 +208,6 @@ impl<'p> Evaluator<'p> {
         self.w.fastest = self.limits[Channel::Speed as usize].1;
     }
 
-    /// Rule 6: at the very start the present heading and depth, at speed 0.
-    fn stand(&mut self) {
-        let (heading, depth) = (self.w.heading(), self.w.depth().unwrap_or(0.0));
-        self.stands = true;
-        self.filter = CommandFilter::new(heading);
-        self.w.asked = Asked { course: heading, over_ground: false, speed: 0.0, vertical: Vertical::Depth(depth) };
-    }
-
     /// Rule 17: the time limit counts also while the mission waits for a first sample or is held.
     fn time_is_up(&self) -> bool {
         self.within.is_some_and(|within| self.w.tick - self.began >= within)
@@ -263,7 +235,7 @@ impl<'p> Evaluator<'p> {
         if !waits {
             self.phase = Phase::Running;
             return match self.start() {
-                Ok(()) => Some(self.command()),
+                Ok(()) => self.command_if_ours(),
                 Err(aborted) => self.abort(aborted),
             };
         }
@@ -271,9 +243,13 @@ impl<'p> Evaluator<'p> {
             self.w.say("timeout".into());
             return self.over("timed_out", Cause::TimedOut);
         }
-        if self.is_stranded() {
+        if self.aground.is_stranded() {
             self.w.say("abort aground for 30 s".into());
             return self.over("aground", Cause::Aborted);
+        }
+        // Rule 18: it does not drive yet, and keeps no depth.
+        if self.w.control.is_guest {
+            return None;
         }
         if self.first_depths.are_contradicted(&self.w) {
             self.stands = false;
@@ -287,13 +263,14 @@ impl<'p> Evaluator<'p> {
             if !(knows_both || is_bounded && is_late) {
                 return None;
             }
-            self.stand();
+            self.stands = true;
+            self.w.stand();
         }
-        Some(self.command())
+        self.command_if_ours()
     }
 
     fn start(&mut self) -> Result<(), Aborted> {
-        self.stand();
+        self.w.stand();
         for require in &self.declared.requires {
             if let (Some(e), None) = (&require.at_first, self.w.inputs[require.input].stamp) {
                 let shape = self.w.shape(&e.ty);
@@ -310,17 +287,12 @@ impl<'p> Evaluator<'p> {
 
     /// Section 8: a recovery stays 2.5 m above where the vehicle has lain on the bottom.
     pub(super) fn shoal(&self) -> Option<f64> {
-        self.lain_at.filter(|_| matches!(self.phase, Phase::Recovering(..))).map(|at| (at - 2.5).max(0.0))
-    }
-
-    fn is_stranded(&self) -> bool {
-        let at_once = self.aground.is_some_and(|since| self.w.tick - since >= STRANDED_TICKS);
-        at_once || self.lain_driven > STRANDED_TICKS
+        self.aground.least.filter(|_| matches!(self.phase, Phase::Recovering(..))).map(|at| (at - 2.5).max(0.0))
     }
 
     fn run(&mut self) -> Option<Command> {
         let time_is_up = self.time_is_up();
-        if self.is_stranded() {
+        if self.aground.is_stranded() {
             self.w.say("abort aground for 30 s".into());
             return self.begin_recovery("aground", Cause::Aborted);
         }
@@ -332,7 +304,7 @@ impl<'p> Evaluator<'p> {
             Ok(true) => self.over("completed", Cause::Done),
             // Rule 17: its own end on the very tick of the limit comes first.
             Ok(false) if time_is_up => self.time_out(),
-            Ok(false) => Some(self.command()),
+            Ok(false) => self.command_if_ours(),
         }
     }
 
@@ -356,12 +328,12 @@ impl<'p> Evaluator<'p> {
         let tick = self.w.tick;
         let lost = |required: &&Required| required.stale_since.is_some_and(|since| tick - since >= required.patience);
         if let Some(required) = self.required.iter().find(lost) {
-            return self.abort(Aborted(format!("no fresh `{}`", self.w.hir.inputs[required.input].name)));
+            return self.abort(Aborted::because(format!("no fresh `{}`", self.w.hir.inputs[required.input].name)));
         }
         if time_is_up {
             return self.time_out();
         }
-        Some(self.still())
+        self.w.control.drives().then(|| self.still())
     }
 
     /// The command with speed 0, for this tick alone.
@@ -379,24 +351,34 @@ impl<'p> Evaluator<'p> {
         self.begin_recovery("timed_out", Cause::Preempted)
     }
 
-    fn abort(&mut self, Aborted(why): Aborted) -> Option<Command> {
+    fn abort(&mut self, Aborted { why, ends_as }: Aborted) -> Option<Command> {
         self.w.say(format!("abort {why}"));
+        if let Some(outcome) = ends_as {
+            return self.over(outcome, outcome_cause(outcome));
+        }
         self.begin_recovery("aborted", Cause::Aborted)
     }
 
     /// Rule 17: what is inside the mission is left; the recovery runs once, under what the mission's declarations put in force.
     fn begin_recovery(&mut self, outcome: &'static str, inner: Cause) -> Option<Command> {
+        // Rule 18: if the vehicle is ours at this moment.
+        let is_ours = self.w.control.is_ours();
+        let drives = self.w.control.drives();
         self.mission.leave_inside(&mut self.w, inner);
         self.mission.end_withs(&mut self.w, inner);
-        let Some((within, _)) = &self.declared.recovery else {
+        let Some((within, _)) = self.declared.recovery.as_ref().filter(|_| is_ours) else {
             return self.over(outcome, outcome_cause(outcome));
         };
         self.recovery_within = within.as_ref().map(|e| ticks(self.number(e)));
         self.phase = Phase::Recovering(self.w.tick, outcome);
         self.w.is_recovering = true;
+        self.w.control.go_on_driving();
+        if !drives {
+            self.w.stand();
+        }
         self.recovery.setpoints = self.mission.setpoints;
         match self.recovery.begin(&mut self.w) {
-            Ok(()) => Some(self.command()),
+            Ok(()) => self.command_if_ours(),
             Err(_) => self.end_recovery(outcome, Cause::Aborted),
         }
     }
@@ -424,24 +406,21 @@ impl<'p> Evaluator<'p> {
 
     fn over(&mut self, outcome: &str, cause: Cause) -> Option<Command> {
         if self.phase != Phase::Over {
-            let lies = self.aground.is_some() && ["completed", "timed_out", "aborted"].contains(&outcome);
-            let lain = self.lain_driven >= LAUNCHED_TICKS;
-            let stranded = lies || (self.struck || lain) && outcome == "completed";
-            if stranded && outcome == "completed" {
-                let how = match (lies, self.struck) {
-                    (true, _) => "lies on",
-                    (_, true) => "struck",
-                    _ => "has lain on",
-                };
+            let spoilt = self.aground.spoils(outcome);
+            if let (Some(how), "completed") = (spoilt, outcome) {
                 self.w.say(format!("abort the vehicle {how} the bottom"));
             }
             self.recovery.leave(&mut self.w, Cause::Preempted);
             self.mission.leave(&mut self.w, cause);
             self.phase = Phase::Over;
             self.w.tell_unwritten();
-            self.w.say(format!("end {}", if stranded { "aground" } else { outcome }));
+            self.w.say(format!("end {}", if spoilt.is_some() { "aground" } else { outcome }));
         }
         None
+    }
+
+    fn command_if_ours(&mut self) -> Option<Command> {
+        self.w.control.drives().then(|| self.command())
     }
 
     /// Rule 2, once a tick: what the innermost statement asks for; overlays; limits; then the command filter and the flow.
@@ -457,7 +436,7 @@ impl<'p> Evaluator<'p> {
         let amended = self.mission.amended(&mut self.w, amended);
         let speed = self.limit(Channel::Speed, asked.speed);
         let vertical = self.vertical(asked.vertical);
-        let course = self.filter.step(amended, self.w.turn_rate, TICK_S);
+        let course = self.w.filter.step(amended, self.w.turn_rate, TICK_S);
         let fastest = self.limits[Channel::Speed as usize].1;
         let (heading, speed) = if (asked.over_ground || amended != asked.course) && speed > 0.0 {
             let water = through_water(course, speed, self.w.flow(), fastest);
@@ -483,7 +462,7 @@ impl<'p> Evaluator<'p> {
 
     /// Says when a limit begins to hold a setpoint, and when it holds it no more.
     pub(super) fn say_limited(&mut self, channel: Channel, held: Option<(f64, f64)>) {
-        if held.is_some() != std::mem::replace(&mut self.limited[channel as usize], held.is_some()) {
+        if held.is_some() != std::mem::replace(&mut self.w.limited[channel as usize], held.is_some()) {
             let how = held.map_or("no more".into(), |(asked, given)| format!("{asked:?} {:?}", given + 0.0));
             self.w.say(format!("limit {channel:?} {how}"));
         }

@@ -4,8 +4,10 @@
 //! It shares geometry, guidance, the printer of numbers, the vehicle's types and a few limits with the machine, and nothing else.
 
 mod activation;
+mod aground;
 mod body;
 mod bottom;
+mod control;
 mod expr;
 mod lift;
 mod mission;
@@ -20,5 +22,6 @@ mod watch;
 mod world;
 
 pub use activation::recovery;
+pub use control::{Request, override_block};
 pub use expr::exactly;
 pub use mission::Evaluator;

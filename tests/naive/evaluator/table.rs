@@ -115,7 +115,7 @@ impl<'p> Table<'p> {
                 Ok(Fired { finishes: false })
             }
             Target::Finish(_) => Ok(Fired { finishes: true }),
-            Target::Abort(why) => Err(Aborted(text(w, Scope::of(&owner.frame), why))),
+            Target::Abort(why) => Err(Aborted::because(text(w, Scope::of(&owner.frame), why))),
         }
     }
 

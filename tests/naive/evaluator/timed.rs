@@ -1,6 +1,7 @@
 //! Rules 3 to 5: a statement that takes time, from its beginning to its end.
 
 use super::activation::{Aborted, Activation};
+use super::control::Overriding;
 use super::expr::{Frame, Scope, holds, number, values};
 use super::value::Value;
 use super::watch::Watch;
@@ -43,8 +44,30 @@ pub enum Doing<'p> {
     Guide(Guide, Vec<Value>, Law),
     Keep(Channel, &'p Expr),
     Call(Box<Activation<'p>>),
+    /// Rule 18: nothing is sent.
+    Watch,
+    Override(Box<Overriding<'p>>),
     /// What is asked, the number of the question once it is, and the answer once it has come.
     Ask(String, Option<u64>, Option<Option<bool>>),
+}
+
+impl<'p> Doing<'p> {
+    /// What is inside it, and active.
+    pub fn called(&mut self) -> Option<&mut Activation<'p>> {
+        match self {
+            Doing::Call(called) => Some(called),
+            Doing::Override(overriding) => Some(&mut overriding.block),
+            _ => None,
+        }
+    }
+
+    pub fn leave(&mut self, w: &mut World<'p>, cause: Cause) {
+        match self {
+            Doing::Call(called) => called.leave(w, cause),
+            Doing::Override(overriding) => overriding.leave(w, cause),
+            _ => {}
+        }
+    }
 }
 
 /// A guidance law that has begun.
@@ -64,7 +87,7 @@ pub enum End {
 
 impl<'p> Underway<'p> {
     /// All is frozen, in the order of the text; what is called is entered afterwards, by [`Underway::first`].
-    pub fn new(w: &mut World<'p>, wearer: &Activation<'p>, timed: &'p Timed) -> Self {
+    pub fn new(w: &mut World<'p>, wearer: &Activation<'p>, timed: &'p Timed, rounds: String) -> Self {
         let (frame, age) = (&wearer.frame, wearer.age);
         let s = Scope::of(frame);
         let mut setpoints = wearer.setpoints;
@@ -82,7 +105,8 @@ impl<'p> Underway<'p> {
             }
             Action::Keep(channel, e) => Doing::Keep(*channel, e),
             Action::Ask(payload, action) => Doing::Ask(w.hir.payloads[*payload].action(*action), None, None),
-            Action::Watch | Action::Override(_) => panic!("rule 18 is not covered"),
+            Action::Watch => Doing::Watch,
+            Action::Override(o) => Doing::Override(Box::new(Overriding::new(w, wearer, o, setpoints, rounds))),
             Action::Call(id, args) => {
                 let activity = &w.hir.activities[*id];
                 let args = values(w, s, args);
@@ -97,6 +121,7 @@ impl<'p> Underway<'p> {
     pub fn first(&mut self, w: &mut World<'p>, frame: &Frame<'p>, in_overlay: bool) -> Result<(), Aborted> {
         match &mut self.doing {
             Doing::Call(called) => called.begin(w),
+            Doing::Override(overriding) => overriding.begin(w),
             _ => self.act(w, frame, in_overlay).map(|_| ()),
         }
     }
@@ -133,6 +158,8 @@ impl<'p> Underway<'p> {
         let (position, course) = (w.position(), w.course());
         let guidance: Guidance = match &mut self.doing {
             Doing::Call(called) => return called.step(w),
+            Doing::Override(overriding) => return overriding.step(w),
+            Doing::Watch => return Ok(false),
             Doing::Ask(action, asked, answer) => {
                 let Some(id) = asked else {
                     *asked = Some(w.question());
@@ -195,6 +222,9 @@ impl<'p> Underway<'p> {
             };
             let value = Value::truth(*answer == Some(Some(true)));
             return Value::Parts(vec![Value::Number(end.number()), value]);
+        }
+        if let Doing::Override(overriding) = &self.doing {
+            return Value::Number(overriding.end(end).number());
         }
         let Doing::Call(called) = &self.doing else { return Value::truth(!matches!(end, End::Cut(Cause::TimedOut))) };
         let Some(ty) = &self.timed.value else {

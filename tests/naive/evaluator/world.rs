@@ -1,10 +1,12 @@
 //! What all activations of a run share: the clock, what is sensed, what is asked for, what has happened.
 
+use super::control::{Controlled, Place};
 use super::timed::Setpoints;
 use super::value::Value;
 use albacore_geometry::{Heading, Point, TangentFrame, Vector};
+use albacore_guidance::CommandFilter;
 use albacore_guidance::parameters::{STATION_POSITION_AGE_MAX, TURN_RATE_MAX};
-use albacore_lang::hir::{Expr, Hir, InputPart, Stmt};
+use albacore_lang::hir::{Activity, Expr, Hir, InputPart, Stmt};
 use albacore_lang::source::Sources;
 use albacore_lang::types::{Type, TypeTable};
 use albacore_machine::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX};
@@ -64,6 +66,16 @@ pub struct World<'p> {
     /// How many questions were put to payloads in this tick, and the first answer to each question of the run.
     pub questions: u64,
     pub answers: BTreeMap<u64, Option<bool>>,
+    /// Who drives, and an activity without anything: of each override.
+    pub control: Controlled,
+    pub override_block: &'p Activity,
+    /// The course behind the command filter.
+    pub filter: CommandFilter,
+    /// Whether the trace has been told that a limit holds a channel, and which overlays amend the course, inner ones first.
+    pub limited: [bool; 3],
+    pub amending: BTreeMap<Place, String>,
+    /// How many `with` there have been.
+    pub withs: u64,
 }
 
 /// Rule 1: whole ticks, rounded up, at least one; a hair above a whole number is rounding.
@@ -72,7 +84,12 @@ pub fn ticks(seconds: f64) -> u64 {
 }
 
 impl<'p> World<'p> {
-    pub fn new(hir: &'p Hir, types: &'p TypeTable, sources: &'p Sources, frame: Option<TangentFrame>) -> Self {
+    pub fn new(
+        (hir, types, sources): (&'p Hir, &'p TypeTable, &'p Sources),
+        frame: Option<TangentFrame>,
+        control: Controlled,
+        override_block: &'p Activity,
+    ) -> Self {
         let width = |ty: &Type| types.words(ty) as usize;
         let inputs = hir.inputs.iter().map(|input| {
             let fields: usize = input.fields.iter().map(|(_, ty)| width(ty)).sum();
@@ -101,6 +118,12 @@ impl<'p> World<'p> {
             reported: Vec::new(),
             questions: 0,
             answers: BTreeMap::new(),
+            control,
+            override_block,
+            filter: CommandFilter::new(Heading::NORTH),
+            limited: [false; 3],
+            amending: BTreeMap::new(),
+            withs: 0,
         }
     }
 
@@ -207,12 +230,16 @@ impl<'p> World<'p> {
         }
     }
 
-    /// Rule 1: how long the mission has lasted, as its script may read it.
+    /// Rules 1 and 18: how long the mission has lasted, and who drives, as its script may read them.
     pub fn tell_elapsed(&mut self, ticks: u64) {
-        if let Some(id) = self.hir.inputs.iter().position(|input| input.name == "elapsed") {
-            let elapsed = ticks as f64 * TICK_S;
+        self.tell("elapsed", ticks as f64 * TICK_S);
+        self.tell("control", f64::from(self.control.shown as u8));
+    }
+
+    fn tell(&mut self, name: &str, value: f64) {
+        if let Some(id) = self.hir.inputs.iter().position(|input| input.name == name) {
             let sensed = &mut self.inputs[id];
-            (sensed.peak, sensed.latest[0], sensed.stamp) = (elapsed, elapsed, Some(self.tick));
+            (sensed.peak, sensed.latest[0], sensed.stamp) = (value, value, Some(self.tick));
         }
     }
 

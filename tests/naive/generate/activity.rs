@@ -24,6 +24,9 @@ impl Generator {
             self.budget = 40;
             self.strategy();
         }
+        if self.is_guest {
+            self.guests();
+        }
         self.budget = 60;
         self.mission();
     }
@@ -364,7 +367,7 @@ impl Generator {
     }
 
     /// A guard that is not true from the start and for ever.
-    fn over_time(&mut self) -> String {
+    pub(super) fn over_time(&mut self) -> String {
         let (x, time) = (self.expr(Ty::Bool, 2), self.time());
         match self.random.below(8) {
             0 => format!("becomes {x}"),
@@ -380,7 +383,7 @@ impl Generator {
         }
     }
 
-    fn effect(&mut self) -> String {
+    pub(super) fn effect(&mut self) -> String {
         if self.random.percent(50) {
             return String::new();
         }
@@ -436,7 +439,9 @@ impl Generator {
             g.reactions("reaction of a mission", 2);
             g.aborts(8);
             g.may_abort = true;
-            if g.random.percent(40) {
+            if g.is_guest {
+                g.guest_body();
+            } else if g.random.percent(40) {
                 g.table(None);
             } else {
                 g.count("sequence");

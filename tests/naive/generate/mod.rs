@@ -2,6 +2,7 @@
 
 mod activity;
 mod expr;
+mod guest;
 mod overlay;
 mod stmt;
 
@@ -100,8 +101,11 @@ pub struct Generator {
     names: Vec<Name>,
     next: usize,
     behaviors: Vec<Callable>,
+    guests: Vec<Callable>,
     bends: Vec<Callable>,
     verticals: Vec<Callable>,
+    /// Its mission is a guest of the vehicle.
+    is_guest: bool,
     /// Functions read no inputs.
     is_pure: bool,
     /// A mission's area can be read.
@@ -126,8 +130,10 @@ pub fn script(seed: u64) -> (String, BTreeMap<&'static str, usize>) {
         names: Vec::new(),
         next: 0,
         behaviors: Vec::new(),
+        guests: Vec::new(),
         bends: Vec::new(),
         verticals: Vec::new(),
+        is_guest: seed % 3 == 1,
         is_pure: false,
         has_area: false,
         finish: None,

@@ -150,7 +150,7 @@ impl Generator {
     }
 
     /// A payload is asked, and what it says is read or not.
-    fn ask(&mut self) {
+    pub(super) fn ask(&mut self) {
         self.count("ask");
         let action = self.random.clone().of(&["start", "stop"]);
         let text = format!("ask camera.{action}() within {}", self.time());
@@ -164,7 +164,7 @@ impl Generator {
         self.declare(&ok, Ty::Bool, false);
     }
 
-    fn call(&mut self) {
+    pub(super) fn call(&mut self) {
         let callee = self.behaviors[self.random.below(self.behaviors.len())].clone();
         let args = self.arguments(&callee.params, callee.needed);
         let mut text = format!("{}({args})", callee.name);
@@ -200,7 +200,7 @@ impl Generator {
     }
 
     /// `if` and `match`, with something inside.
-    fn branch(&mut self, inside: fn(&mut Self)) {
+    pub(super) fn branch(&mut self, inside: fn(&mut Self)) {
         match self.random.below(4) {
             0 => {
                 if let Some(name) = self.named(|name| name.ty.inside().is_some()) {
@@ -308,7 +308,7 @@ impl Generator {
     }
 
     /// `for` over a range or a list.
-    fn rounds(&mut self, inside: fn(&mut Self)) {
+    pub(super) fn rounds(&mut self, inside: fn(&mut Self)) {
         let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells));
         match (self.random.below(3), list) {
             (0, Some(map)) if map.ty == Ty::Cells => {
