@@ -1,7 +1,10 @@
 //! Sound scripts by chance, over all that the rules of time speak of.
 
 mod activity;
+mod area;
+mod derived;
 mod expr;
+mod given;
 mod overlay;
 mod stmt;
 
@@ -29,7 +32,30 @@ pub enum Ty {
     Ints,
     Points,
     Cells,
+    Date,
+    Time,
+    Area,
+    Shares,
 }
+
+const VALUES: [Ty; 16] = [
+    Ty::Bool,
+    Ty::Int,
+    Ty::Length,
+    Ty::Ratio,
+    Ty::Angle,
+    Ty::Heading,
+    Ty::Point,
+    Ty::Vector,
+    Ty::Found,
+    Ty::Mode,
+    Ty::MaybeLength,
+    Ty::MaybePoint,
+    Ty::MaybeFound,
+    Ty::Date,
+    Ty::Time,
+    Ty::Area,
+];
 
 impl Ty {
     fn name(self) -> &'static str {
@@ -40,6 +66,10 @@ impl Ty {
             Ty::Ints => "[Int; 4]",
             Ty::Points => "[Point; 3]",
             Ty::Cells => "Map[Int; 6]",
+            Ty::Shares => "Map[Ratio; 12]",
+            Ty::Date => "Date",
+            Ty::Time => "Duration",
+            Ty::Area => "Area",
             Ty::Bool => "Bool",
             Ty::Int => "Int",
             Ty::Length => "Length",
@@ -53,6 +83,10 @@ impl Ty {
             Ty::Mode => "Mode",
             Ty::Found => "Found",
         }
+    }
+
+    fn or_length(self) -> Ty {
+        if self == Ty::Time { Ty::Length } else { self }
     }
 
     /// What `T?` holds.
@@ -102,6 +136,11 @@ pub struct Generator {
     behaviors: Vec<Callable>,
     bends: Vec<Callable>,
     verticals: Vec<Callable>,
+    /// Those that take behaviors, and what can be given to them.
+    hosts: Vec<given::Host>,
+    guests: Vec<given::Guest>,
+    /// Strategies from which others can be derived.
+    bases: Vec<derived::Base>,
     /// Functions read no inputs.
     is_pure: bool,
     /// A mission's area can be read.
@@ -128,6 +167,9 @@ pub fn script(seed: u64) -> (String, BTreeMap<&'static str, usize>) {
         behaviors: Vec::new(),
         bends: Vec::new(),
         verticals: Vec::new(),
+        hosts: Vec::new(),
+        guests: Vec::new(),
+        bases: Vec::new(),
         is_pure: false,
         has_area: false,
         finish: None,
@@ -142,6 +184,10 @@ pub fn script(seed: u64) -> (String, BTreeMap<&'static str, usize>) {
 }
 
 impl Generator {
+    fn any_type(&mut self) -> Ty {
+        VALUES[self.random.below(VALUES.len())]
+    }
+
     fn line(&mut self, line: &str) {
         self.out.push_str(&"    ".repeat(self.depth));
         self.out.push_str(line);
