@@ -113,7 +113,7 @@ fn generated() {
         "reaction of an overlay, optional as a condition, body that takes no time, sequence, table, rule, several sources",
         "any ->, then back, do, done, done and, done or, after T, -> finish, -> abort, becomes, for, not, no for, after",
         "becomes after, every, false and, or over time, becomes of for",
-        "utc, date, elapsed, polygon, polygon of a list, named area, map of shares, share set, record, ask, replace",
+        "utc, date, elapsed, polygon, polygon of a list, named area, map of shares, map of records, share set, record, ask, replace",
         "call of a given behavior, given behavior handed on, call with given behaviors",
         "result of a given behavior unread, derived strategy, behavior in the place of the base's",
         "table in the place of the base's, memory in the place of the base's, signal in the place of the base's",

@@ -12,6 +12,7 @@ pub fn operation_of_place(random: &mut Random, ty: Ty) -> &'static str {
             "$Z.hull",
             "rectangle(center: $P, along: $H, length: clamp($L, 2 m, 60 m), width: 20 m)",
         ]),
+        Ty::Marks => random.of(&["marked($Z, $F)", "moved($N, $V)"]),
         _ => random.of(&["scaled($C, $R)", "shares($C)", "decayed($C, $T, 3 s)", "even($Z, $R)"]),
     }
 }
@@ -21,6 +22,12 @@ impl Generator {
     pub(super) fn functions_of_maps(&mut self) {
         for line in [
             "fn even(over: Area, each: Ratio) -> Map[Ratio; 12] { map(over: over, each: each) }",
+            "fn marked(over: Area, each: Found) -> Map[Found; 4] { map(over: over, each: each) }",
+            "fn moved(marks: Map[Found; 4], way: Vector) -> Map[Found; 4] {",
+            "    var moved = marks",
+            "    for mark at place in marks { moved[place] = mark with (at: mark.at + way) }",
+            "    moved",
+            "}",
             "fn outline(corners: [Point; n]) -> Area? { polygon(corners) }",
             "fn total(cells: Map[Ratio; n]) -> Ratio {",
             "    var sum = 0.0",
@@ -69,6 +76,7 @@ impl Generator {
     pub(super) fn leaf_of_place(&mut self, ty: Ty) -> String {
         match ty {
             Ty::Area => "rectangle(center: $P, along: $H, length: 40 m, width: 20 m)".to_string(),
+            Ty::Marks => "marked($Z, $F)".to_string(),
             _ => "even($Z, $R)".to_string(),
         }
     }
@@ -107,6 +115,12 @@ impl Generator {
     }
 
     pub(super) fn memory_of_shares(&mut self) {
+        if self.random.percent(40) {
+            self.count("map of records");
+            let (name, map) = (self.fresh("marks"), self.expr(Ty::Marks, 2));
+            self.line(&format!("memory {name}: {} = {map}", Ty::Marks.name()));
+            return self.declare(&name, Ty::Marks, true);
+        }
         self.count("map of shares");
         let name = self.fresh("shares");
         let map = match self.random.below(2) {

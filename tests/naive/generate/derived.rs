@@ -74,7 +74,9 @@ impl Generator {
         self.names = outside.to_vec();
         for (at, declared) in base.inside.iter().enumerate().skip(base.outside.len()) {
             let known = base.inside[base.outside.len()..at].iter();
-            if matches!(declared.ty, Ty::Ints | Ty::Points | Ty::Cells | Ty::Shares) || self.random.percent(50) {
+            if matches!(declared.ty, Ty::Ints | Ty::Points | Ty::Cells | Ty::Shares | Ty::Marks)
+                || self.random.percent(50)
+            {
                 continue;
             }
             self.names = outside.iter().chain(known).cloned().collect();

@@ -34,6 +34,22 @@ const CONDITIONS: [&str; 25] = [
     "($i.count > 1)",
 ];
 
+/// What makes a whole number.
+const INTS: [&str; 12] = [
+    "($I + $I)",
+    "($I - $I)",
+    "($I * 2)",
+    "$i.count",
+    "min($I, $I)",
+    "floor($R)",
+    "round($R * 3)",
+    "($i.first else $I)",
+    "($i[abs($I)] else $I)",
+    "$q.count",
+    "$i.top($I).count",
+    "many($I, $M)",
+];
+
 /// What makes a length.
 const LENGTHS: [&str; 22] = [
     "$Z.gap($P)",
@@ -152,6 +168,7 @@ impl Generator {
                 b'T' => Ty::Time,
                 b'Z' => Ty::Area,
                 b'C' => Ty::Shares,
+                b'N' => Ty::Marks,
                 b'i' => Ty::Ints,
                 b'q' => Ty::Points,
                 other => panic!("no type for `{}`", char::from(other)),
@@ -203,7 +220,7 @@ impl Generator {
             Ty::Points => "$q".to_string(),
             Ty::Cells => panic!("a map is made where it is kept"),
             Ty::Date | Ty::Time => self.leaf_of_time(ty),
-            Ty::Area | Ty::Shares => self.leaf_of_place(ty),
+            Ty::Area | Ty::Shares | Ty::Marks => self.leaf_of_place(ty),
         }
     }
 
@@ -214,20 +231,7 @@ impl Generator {
             Ty::Bool if senses && r.percent(5) => "(new chemical)",
             Ty::Bool => r.of(&CONDITIONS),
             Ty::Int if senses && r.percent(30) => "chemical.hits($R, of: 4)",
-            Ty::Int => r.of(&[
-                "($I + $I)",
-                "($I - $I)",
-                "($I * 2)",
-                "$i.count",
-                "min($I, $I)",
-                "floor($R)",
-                "round($R * 3)",
-                "($i.first else $I)",
-                "($i[abs($I)] else $I)",
-                "$q.count",
-                "$i.top($I).count",
-                "many($I, $M)",
-            ]),
+            Ty::Int => r.of(&INTS),
             Ty::Length => r.of(&LENGTHS),
             Ty::Ratio if senses && r.percent(10) => "(elapsed / 7 s)",
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
@@ -271,9 +275,12 @@ impl Generator {
             ]),
             Ty::Depth => r.of(&["max($D, 2 m)", "min($D, 15 m)", "clamp($D, 1 m, 12 m)", "($D + position.sigma)"]),
             Ty::Mode => "mode_of($I)",
-            Ty::Found => {
-                r.of(&["Found(at: $P, size: $L, mode: $M)", "($F with (size: $L))", "($F with (mode: $M, at: $P))"])
-            }
+            Ty::Found => r.of(&[
+                "($N[$P] else $F)",
+                "Found(at: $P, size: $L, mode: $M)",
+                "($F with (size: $L))",
+                "($F with (mode: $M, at: $P))",
+            ]),
             Ty::MaybeLength => r.of(&["near($P, $L)", "near($q[abs($I)] else $P, $L)", "one_of([$L, none, $l], $I)"]),
             Ty::MaybePoint => r.of(&[
                 "peak($C)",
@@ -283,12 +290,12 @@ impl Generator {
                 "$q.top($I)[abs($I)]",
                 "place_of([$p, $P, none], $I)",
             ]),
-            Ty::MaybeFound => "found_if($B, $F)",
+            Ty::MaybeFound => r.of(&["found_if($B, $F)", "$N[$P]"]),
             Ty::Ints => "$i",
             Ty::Points => "$q",
             Ty::Cells => panic!("a map is made where it is kept"),
             Ty::Date | Ty::Time => operation_of_time(r, ty),
-            Ty::Area | Ty::Shares => operation_of_place(r, ty),
+            Ty::Area | Ty::Shares | Ty::Marks => operation_of_place(r, ty),
         }
         .to_string()
     }
@@ -307,8 +314,7 @@ impl Generator {
             }
             _ if senses && self.random.percent(40) => {
                 self.count("elapsed");
-                // No checker knows that it is never negative.
-                "max(0 s, elapsed)".to_string()
+                "elapsed".to_string()
             }
             _ => format!("{second} s"),
         }

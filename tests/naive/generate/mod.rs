@@ -36,6 +36,7 @@ pub enum Ty {
     Time,
     Area,
     Shares,
+    Marks,
 }
 
 const VALUES: [Ty; 16] = [
@@ -67,6 +68,7 @@ impl Ty {
             Ty::Points => "[Point; 3]",
             Ty::Cells => "Map[Int; 6]",
             Ty::Shares => "Map[Ratio; 12]",
+            Ty::Marks => "Map[Found; 4]",
             Ty::Date => "Date",
             Ty::Time => "Duration",
             Ty::Area => "Area",
@@ -82,6 +84,16 @@ impl Ty {
             Ty::Depth => "Depth",
             Ty::Mode => "Mode",
             Ty::Found => "Found",
+        }
+    }
+
+    /// What a map holds.
+    fn cell(self) -> Option<Ty> {
+        match self {
+            Ty::Cells => Some(Ty::Int),
+            Ty::Shares => Some(Ty::Ratio),
+            Ty::Marks => Some(Ty::Found),
+            _ => None,
         }
     }
 

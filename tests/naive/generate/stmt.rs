@@ -294,13 +294,13 @@ impl Generator {
 
     /// `for` over a range or a list.
     fn rounds(&mut self, inside: fn(&mut Self)) {
-        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells | Ty::Shares));
+        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells | Ty::Shares | Ty::Marks));
         match (self.random.below(3), list) {
-            (0, Some(map)) if matches!(map.ty, Ty::Cells | Ty::Shares) => {
+            (0, Some(map)) if map.ty.cell().is_some() => {
                 self.count("for map");
                 let (name, place) = (self.fresh("each"), self.fresh("place"));
                 self.braces(&format!("for {name} at {place} in {}", map.text), |g| {
-                    g.declare(&name, if map.ty == Ty::Cells { Ty::Int } else { Ty::Ratio }, false);
+                    g.declare(&name, map.ty.cell().unwrap_or(Ty::Int), false);
                     g.declare(&place, Ty::Point, false);
                     inside(g);
                 });
@@ -451,9 +451,10 @@ impl Generator {
                 let (place, value) = (self.expr(Ty::Point, 2), self.expr(Ty::Int, 2));
                 self.line(&format!("{text}[{place}] = {value}"));
             }
-            Ty::Shares if self.random.percent(60) => {
+            Ty::Shares | Ty::Marks if self.random.percent(60) => {
                 self.count("share set");
-                let (place, value) = (self.expr(Ty::Point, 2), self.expr(Ty::Ratio, 2));
+                let of = if memory.ty == Ty::Shares { Ty::Ratio } else { Ty::Found };
+                let (place, value) = (self.expr(Ty::Point, 2), self.expr(of, 2));
                 self.line(&format!("{text}[{place}] = {value}"));
             }
             ty => {
