@@ -1,5 +1,6 @@
 //! The mutator: reads a script as words with their places, and makes of each place what somebody might have written there.
 
+use super::slips;
 use std::collections::BTreeMap;
 
 /// A kind of mix-up.
@@ -17,11 +18,25 @@ pub enum Kind {
     HeadingForAngle,
     PointForVector,
     OtherType,
+    OtherBehavior,
+    PayloadAction,
+    Recorded,
+    MapCell,
+    Corners,
+    DateForDuration,
+    Rhythm,
+    Derived,
+    WithField,
+    Reported,
+    Exchanged,
+    PeriodForRate,
+    VariantOfOther,
+    AbsentForgotten,
 }
 
 impl Kind {
     /// All kinds, and how many of each are made.
-    pub const ALL: [(Kind, usize); 12] = [
+    pub const ALL: [(Kind, usize); 26] = [
         (Kind::UnitDropped, 14),
         (Kind::OtherDimension, 16),
         (Kind::SpeedForLength, 8),
@@ -34,6 +49,20 @@ impl Kind {
         (Kind::HeadingForAngle, 7),
         (Kind::PointForVector, 6),
         (Kind::OtherType, 16),
+        (Kind::OtherBehavior, 7),
+        (Kind::PayloadAction, 9),
+        (Kind::Recorded, 6),
+        (Kind::MapCell, 7),
+        (Kind::Corners, 6),
+        (Kind::DateForDuration, 8),
+        (Kind::Rhythm, 6),
+        (Kind::Derived, 7),
+        (Kind::WithField, 5),
+        (Kind::Reported, 9),
+        (Kind::Exchanged, 4),
+        (Kind::PeriodForRate, 3),
+        (Kind::VariantOfOther, 3),
+        (Kind::AbsentForgotten, 2),
     ];
 
     pub fn title(self) -> &'static str {
@@ -52,6 +81,20 @@ impl Kind {
             Kind::HeadingForAngle => "A heading for an angle, an angle for a heading",
             Kind::PointForVector => "A point for a vector, a vector for a point",
             Kind::OtherType => "A variable of another type",
+            Kind::OtherBehavior => "A behavior that takes something else, or is none",
+            Kind::PayloadAction => "A payload that is asked what it has not, and an answer that is read for another",
+            Kind::Recorded => "What is no input is recorded, or at what is no rate",
+            Kind::MapCell => "A cell of another type, a place that is none",
+            Kind::Corners => "Too few corners, or one that is no place",
+            Kind::DateForDuration => "A date for a time, a time for a date",
+            Kind::Rhythm => "Every of what is no time, or where nothing fires",
+            Kind::Derived => "A strategy or scenario like one that it is not",
+            Kind::WithField => "A field that is not there, or of another type",
+            Kind::Reported => "A report that is not made so",
+            Kind::Exchanged => "Two that are exchanged",
+            Kind::PeriodForRate => "A period for a rate, a rate for a period",
+            Kind::VariantOfOther => "A name that is none of the enum",
+            Kind::AbsentForgotten => "What may be absent, taken as there",
         }
     }
 }
@@ -63,7 +106,7 @@ pub struct Text {
     words: Vec<Word>,
 }
 
-/// A number, a name or unit, or a sign.
+/// A number or date, a name or unit, a text, or a sign.
 struct Word {
     start: usize,
     end: usize,
@@ -77,6 +120,8 @@ pub struct Edit {
     pub line: usize,
     pub from: String,
     pub to: String,
+    /// What a slip writes: each is chosen once.
+    slip: Option<&'static str>,
     start: usize,
     end: usize,
 }
@@ -95,6 +140,12 @@ const UNITS: [(&str, &str); 10] = [
     ("%", "share"),
 ];
 
+impl Edit {
+    pub fn of(self, slip: &'static str) -> Self {
+        Edit { slip: Some(slip), ..self }
+    }
+}
+
 impl Text {
     pub fn new(path: &'static str, text: String) -> Self {
         let words = words(&text);
@@ -106,31 +157,42 @@ impl Text {
         format!("{}{}{}", &self.text[..edit.start], edit.to, &self.text[edit.end..])
     }
 
-    fn word(&self, index: usize) -> &str {
+    pub fn len(&self) -> usize {
+        self.words.len()
+    }
+
+    pub fn line(&self, index: usize) -> usize {
+        self.words[index].line
+    }
+
+    pub fn word(&self, index: usize) -> &str {
         self.words.get(index).map_or("", |w| &self.text[w.start..w.end])
     }
 
-    fn edit(&self, text: usize, first: usize, last: usize, to: &str) -> Edit {
+    pub fn edit(&self, text: usize, first: usize, last: usize, to: &str) -> Edit {
         let (start, end) = (self.words[first].start, self.words[last].end);
         Edit {
             text,
             line: self.words[first].line,
             from: self.text[start..end].to_string(),
             to: to.to_string(),
+            slip: None,
             start,
             end,
         }
     }
 
     /// Whether nothing on its line tells what is wanted there, so that a mix-up shows later: a value that a name without
-    /// a type stands for, a factor, and what people read.
+    /// a type stands for, a factor, what is recorded, and what people read.
     fn is_untold(&self, index: usize) -> bool {
         let line = self.words[index].line;
         let first = self.words.partition_point(|w| w.line < line);
         let factor = ["*", "/", "^"];
         let named = matches!(self.word(first), "let" | "signal" | "const") && self.word(first + 2) != ":";
+        let shown = (first..index).any(|i| self.word(i) == "report");
         named
-            || matches!(self.word(first), "report" | "log" | "}" | "flow" | "plume")
+            || shown
+            || matches!(self.word(first), "record" | "log" | "}" | "flow" | "plume")
             || factor.contains(&self.word(index + 1))
             || index > 0 && factor.contains(&self.word(index - 1))
     }
@@ -147,7 +209,8 @@ impl Text {
             // What is declared further in is not known everywhere: parameters and what stands one level in are.
             let indent = self.words[i].start - self.text[..self.words[i].start].rfind('\n').map_or(0, |n| n + 1);
             let is_outer = !matches!(self.word(i.wrapping_sub(1)), "memory" | "let") || indent <= 12;
-            if self.word(i + 1) == ":" && is_type && is_outer && self.word(i + 3) != "?" {
+            let is_name = !self.word(i).starts_with('"');
+            if is_name && self.word(i + 1) == ":" && is_type && is_outer && self.word(i + 3) != "?" {
                 types.insert(self.word(i), self.word(i + 2));
             }
         }
@@ -167,7 +230,7 @@ impl Text {
 
     /// All mix-ups of a kind.
     fn edits(&self, kind: Kind, text: usize) -> Vec<Edit> {
-        let mut edits = Vec::new();
+        let mut edits = slips::edits(kind, text, self);
         for i in 0..self.words.len() {
             if !self.is_untold(i) {
                 self.quantity(kind, text, i, &mut edits);
@@ -275,7 +338,7 @@ fn words(text: &str) -> Vec<Word> {
                 _ if rest.starts_with("->") || rest.starts_with("..") => 2,
                 c => c.len_utf8(),
             };
-            if !c.is_whitespace() && c != '"' {
+            if !c.is_whitespace() {
                 words.push(Word { start: offset + at, end: offset + at + length, line: n + 1 });
             }
             at += length;
@@ -287,7 +350,13 @@ fn words(text: &str) -> Vec<Word> {
 fn number(rest: &str) -> usize {
     let whole = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
     let fraction = rest[whole..].strip_prefix('.').filter(|f| f.starts_with(|c: char| c.is_ascii_digit()));
-    // A position on the globe is one word.
+    // A date is one word, and so is a position on the globe.
+    let date = rest
+        .find('Z')
+        .filter(|end| *end >= 16 && rest[..*end].bytes().all(|c| c.is_ascii_digit() || b"-T:".contains(&c)));
+    if let Some(end) = date {
+        return end + 1;
+    }
     let geodetic = rest[whole..].starts_with('°').then(|| rest.find([',', ')']).unwrap_or(rest.len()));
     geodetic.unwrap_or(match fraction {
         Some(f) => whole + 1 + f.find(|c: char| !c.is_ascii_digit()).unwrap_or(f.len()),
@@ -313,7 +382,11 @@ pub fn choose(kind: Kind, texts: &[Text], wanted: usize) -> Vec<Edit> {
         seed ^= seed << 17;
         let edit = edits.swap_remove((seed % edits.len() as u64) as usize);
         // One place is mixed up once.
-        if !chosen.iter().any(|c| (c.text, c.start) == (edit.text, edit.start)) {
+        let is_same = |c: &Edit| match edit.slip {
+            Some(slip) => c.slip == Some(slip),
+            None => (c.text, c.start) == (edit.text, edit.start),
+        };
+        if !chosen.iter().any(is_same) {
             chosen.push(edit);
         }
     }

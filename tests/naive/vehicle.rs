@@ -10,6 +10,8 @@ use albacore_vehicle::{
 /// So much faster than life: what takes minutes at sea takes some dozens of ticks.
 const HASTE: f64 = 10.0;
 const BOTTOM_M: f64 = 20.0;
+/// When it begins: 2026-08-14T05:00:10Z, in seconds since 1970.
+const DATE_S: f64 = 1_786_683_610.0;
 
 /// What sensors may tell that nobody would believe.
 const ABSURD: [f64; 16] = [
@@ -157,6 +159,10 @@ impl Vehicle for Chance {
             let noise = if self.random.percent(3) { f64::NAN } else { 0.02 * self.random.uniform() };
             let chemical = self.chemical + noise;
             say(self, measurements::CHEMICAL, &[chemical]);
+        }
+        if self.tick.is_multiple_of(10) {
+            let utc = DATE_S + self.tick as f64 * TICK_S;
+            say(self, measurements::UTC, &[utc]);
         }
         if self.tick.is_multiple_of(7) {
             let battery = 1.0 - self.tick as f64 / 400.0;

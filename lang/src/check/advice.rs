@@ -22,6 +22,12 @@ pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
 pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_constant: bool) -> String {
     let unit = wants.unit();
     match (scaling(has, wants), is_constant) {
+        _ if has == Dimension::TIME && wants == Dimension::FREQUENCY => {
+            "a rate is how often a second: once in 10 s is `0.1 Hz`".into()
+        }
+        _ if has == Dimension::FREQUENCY && wants == Dimension::TIME => {
+            "a time is asked for: 10 Hz is once in `100 ms`".into()
+        }
         (None, _) if has.is_of_quantity() || wants.is_of_quantity() => ANY_UNIT.into(),
         (Some(Scaling { verb, by }), _) if wants.is_of_quantity() => format!("{verb} {what} by {by}"),
         (Some(scaling), true) => format!("write {what} in `{unit}`, or {} it by {}", scaling.verb, scaling.by),
@@ -83,6 +89,7 @@ fn partner(op: Binary, a: &Type, b: &Type) -> Option<&'static str> {
             Type::Heading => "a heading is turned by an angle: `heading + 20 deg`",
             Type::Point => "a point is moved by a vector, `POINT + VECTOR`; from one to another leads `POINT - POINT`",
             Type::Vector(_) => "vectors are added to points, and to vectors of their own kind",
+            Type::Area => "an area is not calculated with: its middle is `AREA.center`",
             _ => return None,
         })
     };
@@ -132,11 +139,26 @@ fn is_toward(vector: &Expr) -> bool {
 }
 
 impl Checker<'_> {
+    /// With what a place, or a word of an enum, is compared.
+    fn compared_help(&self, a: &Expr, b: &Expr) -> Option<String> {
+        match (&a.ty, &b.ty) {
+            (Type::None | Type::Heading, _) | (_, Type::None | Type::Heading) => None,
+            (Type::Point, Type::Quantity(d)) | (Type::Quantity(d), Type::Point) if *d == Dimension::LENGTH => {
+                Some("how far one place is from another is `distance(PLACE, PLACE)`".into())
+            }
+            (word @ Type::Enum(_), _) | (_, word @ Type::Enum(_)) => self.example(word),
+            _ => None,
+        }
+    }
+
     /// What to write instead of an operation that its operands do not have.
     pub(super) fn operator_help(&self, op: Binary, a: &Expr, b: &Expr) -> Option<String> {
         use Type::*;
         let takes_metres = op.compares() || matches!(op, Binary::Add | Binary::Sub);
         let is_number = |x: &Type| x.dimension().is_some_and(Dimension::is_none);
+        if let Some(help) = self.compared_help(a, b).filter(|_| op.compares()) {
+            return Some(help);
+        }
         Some(match (op, &a.ty, &b.ty) {
             (Binary::Add, Text, _) | (Binary::Add, _, Text) => {
                 "write one text, with values between `{` and `}`: `\"{a} and {b}\"`".into()
@@ -173,10 +195,7 @@ impl Checker<'_> {
                 "a direction alone has no length: give the number before `toward` a unit, such as `8 m toward north`"
                     .into()
             }
-            (Binary::Add | Binary::Sub, Vector(_), t) if *t == ANGLE && !is_toward(a) => self.turned(op, a),
-            (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => {
-                "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
-            }
+            (Binary::Add | Binary::Sub, Point | Vector(_), t) if *t == ANGLE => self.beside_angle(op, a),
             (Binary::Sub, Vector(_), Point) => "the vector from one point to another is `POINT - POINT`".into(),
             (Binary::Add, Point, Point) => {
                 "a point is moved by a vector: `POINT + VECTOR`; `POINT - POINT` is a vector".into()
@@ -210,6 +229,20 @@ impl Checker<'_> {
             }
             (op, x, y) => return partner(op, x, y).map(str::to_string),
         })
+    }
+
+    /// A place or a vector, beside which an angle stands.
+    fn beside_angle(&self, op: Binary, place: &Expr) -> String {
+        match place.ty {
+            _ if is_toward(place) => {
+                "`toward` holds tighter than `+` and `-`: write `LENGTH toward (HEADING + ANGLE)`".into()
+            }
+            Type::Point => {
+                "an angle turns a direction: `HEADING + ANGLE`; the direction to a place is `(PLACE - position).toward`"
+                    .into()
+            }
+            _ => self.turned(op, place),
+        }
     }
 
     /// How a value is called in a mend: by its name, where it has one.

@@ -204,6 +204,8 @@ impl<'t> Checker<'t> {
         let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
         self.report(match names.as_slice() {
             [] => finding.help(format!("write `{what}()`")),
+            ["corners"] => finding.help("it takes a list: `polygon([a, b, c])`"),
+            _ if params.iter().all(|param| param.name.contains(' ')) => finding.help("leave out what is too much"),
             names => finding.help(format!("leave out what is too much: it takes {}", listed(names))),
         });
     }

@@ -8,6 +8,7 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, Interval};
+use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_arithmetic::INT_MAX;
@@ -61,6 +62,9 @@ impl<'t> Checker<'t> {
             }
             (Type::List(a, n), Type::List(b, m)) if n <= m => {
                 if let ExprKind::List(elements) = value.kind {
+                    if elements.first().is_some_and(|first| !span.holds(first.span)) {
+                        return self.coerce_constant(elements, ty, what, span);
+                    }
                     let elements = elements.into_iter().map(|e| self.coerce(e, b, what)).collect();
                     return Expr { kind: ExprKind::List(elements), ty: ty.clone(), span, range: Interval::ANY };
                 }
@@ -72,6 +76,20 @@ impl<'t> Checker<'t> {
         }
         self.mismatch(&value, ty, what);
         Expr { ty: Type::Unknown, ..value }
+    }
+
+    /// A list that is a constant: what is wrong with its elements is told once, where it is read.
+    fn coerce_constant(&mut self, elements: Vec<Expr>, ty: &Type, what: &str, span: Span) -> Expr {
+        let Type::List(wanted, _) = ty else { return self.unknown(span) };
+        let mut coerced = Vec::new();
+        for element in elements {
+            let element = self.coerce(Expr { span, ..element }, wanted, what);
+            if element.ty == Type::Unknown {
+                return self.unknown(span);
+            }
+            coerced.push(element);
+        }
+        Expr { kind: ExprKind::List(coerced), ty: ty.clone(), span, range: Interval::ANY }
     }
 
     fn mismatch(&mut self, value: &Expr, wanted: &Type, what: &str) {
@@ -145,7 +163,9 @@ impl<'t> Checker<'t> {
                 "to go to a point write `goto POINT`; the direction to it is `(POINT - position).toward`".into()
             }
             (Type::Vector(_), Type::Heading) => "the direction of a vector is its `.toward`".into(),
-            (Type::Heading, Type::Point) => "to go in a direction write `steer HEADING`".into(),
+            (Type::Heading, Type::Point) => {
+                "a place is asked for, such as `position`; to go in a direction write `steer HEADING`".into()
+            }
             (Type::Quantity(d), Type::Point) if *d == Dimension::ANGLE => {
                 "to go in a direction write `steer HEADING`".into()
             }

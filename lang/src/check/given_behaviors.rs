@@ -286,10 +286,19 @@ impl<'t> Checker<'t> {
         });
         if let Some(message) = wrong {
             let finding = Diagnostic::error(Code::TypesBehavior, written.span, message);
-            self.report(finding.label(param.span, "it is called with this").label(given.span, "declared here"));
+            let wants = self.behavior_type(takes, result.as_ref());
+            let finding = finding.label(param.span, "it is called with this").label(given.span, "declared here");
+            self.report(finding.help(format!("give it a `{wants}`")));
             return None;
         }
         Some(id)
+    }
+
+    /// How a behavior that is asked for is written.
+    fn behavior_type(&self, takes: &[Type], result: Option<&Type>) -> String {
+        let takes: Vec<String> = takes.iter().map(|ty| self.type_name(ty)).collect();
+        let result = result.map_or(String::new(), |ty| format!(" -> {}", self.type_name(ty)));
+        format!("behavior({}){result}", takes.join(", "))
     }
 
     /// What of a behavior does not fit what it is called with.

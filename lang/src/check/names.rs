@@ -11,6 +11,7 @@ use crate::prompt::{Held, Known};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_program::senses;
 use albacore_syntax::other_languages;
 use albacore_wording::listed;
 
@@ -193,7 +194,11 @@ impl<'t> Checker<'t> {
                 }
                 let input = &self.hir.inputs[*id];
                 // No sample is held to the two values of a sign: what an input tells is a whole number.
-                let of_type = if input.ty == Type::Sign { Interval::INT } else { of_type(&input.ty) };
+                let of_type = match of_type(&input.ty) {
+                    _ if input.ty == Type::Sign => Interval::INT,
+                    _ if input.name == senses::ELAPSED => hir::ELAPSED,
+                    range => range,
+                };
                 let range = self.scope.facts.narrowed(Place::Input(*id), of_type);
                 Expr { kind: ExprKind::Input(*id, InputPart::Value), ty: input.ty.clone(), span, range }
             }

@@ -299,7 +299,8 @@ impl<'t> Checker<'t> {
     }
 
     fn toward(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
-        let Some(d) = a.ty.dimension() else { return self.no_such(op, &a, &b, span) };
+        let are_exchanged = a.ty == ANGLE && b.ty.dimension().is_some() && b.ty != ANGLE;
+        let Some(d) = a.ty.dimension().filter(|_| !are_exchanged) else { return self.no_such(op, &a, &b, span) };
         let b = self.coerce(b, &Type::Heading, "the direction after `toward`");
         self.operation(Builtin::Toward, vec![a, b], Type::Vector(d), span)
     }

@@ -20,11 +20,18 @@ impl Checker<'_> {
         let capacity = if let Type::List(_, capacity) = list.ty { capacity } else { AREA_CORNERS_MAX as u32 };
         let points = Type::List(Box::new(Type::Point), capacity);
         let list = self.coerce(list, &points, "the argument `corners` of `polygon`");
-        if list.ty == Type::Unknown {
-            return list;
+        let unknown = |e: &Expr| e.ty == Type::Unknown;
+        if unknown(&list) || matches!(&list.kind, ExprKind::List(corners) if corners.iter().any(unknown)) {
+            return self.unknown(span);
         }
         let known = known_corners(&list).map(|corners| Area::polygon(&corners));
         let (is_known, is_asked_for) = (known.is_some(), expected == Some(&Type::Area));
+        if let ExprKind::List(corners) = &list.kind
+            && (1..3).contains(&corners.len())
+        {
+            self.no_area(corners, AreaError::TooFewCorners, true, span);
+            return self.unknown(span);
+        }
         if let (ExprKind::List(corners), Some(Err(error))) = (&list.kind, known) {
             self.no_area(corners, error, is_asked_for, span);
             if is_asked_for {

@@ -74,6 +74,9 @@ impl Checker<'_> {
         let known: Vec<String> = self.hir.inputs.iter().map(|input| input.name.clone()).collect();
         self.report(match self.nearest(&name.node, known.iter().map(String::as_str)) {
             Some(near) => finding.help(format!("did you mean `{near}`?")),
+            None if code == Code::MissionsRecord => {
+                finding.help("what is sensed is recorded, such as `temperature`; anything else is reported: `report \"NAME\": VALUE`")
+            }
             None => finding,
         });
         None

@@ -70,21 +70,13 @@ impl<'t> Checker<'t> {
         match self.resolve(self.scope.module, path).cloned() {
             Some(Def::Scenario(id)) => Some(id),
             // A scenario may also be chosen on the command line: what is missing here is reported where it is run.
-            Some(def) => {
-                self.report(Diagnostic::error(
-                    Code::ScenariosUnknown,
-                    path.span,
-                    format!("`{}` is {}, no scenario", path.text(), def.what()),
-                ));
-                None
-            }
-            None => {
+            found => {
                 let known: Vec<String> = self.hir.scenarios.iter().map(|s| s.path.clone()).collect();
-                let finding = Diagnostic::error(
-                    Code::ScenariosUnknown,
-                    path.span,
-                    format!("there is no scenario `{}`", path.text()),
-                );
+                let message = match found {
+                    Some(def) => format!("`{}` is {}, no scenario", path.text(), def.what()),
+                    None => format!("there is no scenario `{}`", path.text()),
+                };
+                let finding = Diagnostic::error(Code::ScenariosUnknown, path.span, message);
                 let finding = match self.suggestion(&path.text(), known.iter().map(String::as_str)) {
                     Some(help) => finding.help(help),
                     None => finding,

@@ -186,6 +186,8 @@ impl<'t> Checker<'t> {
         let known: Vec<&str> = TRUTHS.into_iter().chain(TrueInput::ALL.map(TrueInput::name)).collect();
         let finding = Diagnostic::error(Code::TestsTruth, named, format!("there is no `truth.{asked}` to ask for"));
         let finding = match self.nearest(asked.trim_end_matches("(…)"), known.iter().copied()) {
+            Some("source") if asked == "source" => finding.help("say which: `truth.source(\"NAME\")`"),
+            Some("depth_at") if asked == "depth_at" => finding.help("say where: `truth.depth_at(POINT)`"),
             Some(near) => finding.help(format!("did you mean `truth.{near}`?")),
             None => finding.help(format!("there is {}", listed(&known))),
         };

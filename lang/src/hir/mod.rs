@@ -35,6 +35,9 @@ pub type FnId = usize;
 /// Index of an input.
 pub type InputId = usize;
 
+/// The values of the input `elapsed`, which the machine counts.
+pub const ELAPSED: Interval = Interval { low: 0.0, ..Interval::ANY };
+
 /// A checked program, before a mission is chosen.
 #[derive(Clone, Debug, Default)]
 pub struct Hir {

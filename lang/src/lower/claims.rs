@@ -1,10 +1,10 @@
 //! What the checker takes variables to be, word for word, for whoever computes the ranges of the code anew.
 
 use super::Lowering;
-use crate::hir::{Interval, Var, VarKind};
+use crate::hir::{ELAPSED, Interval, Var, VarKind};
 use crate::types::{Type, is_number};
 use albacore_arithmetic::counted;
-use albacore_program::{ABSOLUTE, Addr, Claim, GRID_WORDS, Input, Slot, Unit};
+use albacore_program::{ABSOLUTE, Addr, Claim, GRID_WORDS, Input, Slot, Unit, senses};
 
 impl<'a> Lowering<'a> {
     /// What is claimed of the variables of a function or an activity whose code begins there and has just been made.
@@ -49,6 +49,14 @@ impl<'a> Lowering<'a> {
                 at = at.saturating_add(self.words(ty));
             }
         }
+        let elapsed = self.hir.inputs.iter().position(|input| input.name == senses::ELAPSED);
+        claims.extend(elapsed.and_then(|id| self.program.inputs.get(id)).map(|placed| Claim {
+            slot: ABSOLUTE | placed.at.saturating_add(Input::VALUE),
+            range: ELAPSED,
+            is_whole: false,
+            present: None,
+            is_param: false,
+        }));
         // No sample is held to the two values of a sign.
         claims.iter_mut().filter(|claim| claim.range == Interval::SIGN).for_each(|claim| claim.range = Interval::INT);
         self.claims.inputs = claims;

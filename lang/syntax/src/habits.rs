@@ -120,7 +120,7 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
     if first == "expect" && matches!(last, "eventually" | "sometime" | "sometimes" | "ever") {
         return only("write `expect once …`: at some tick of each run");
     }
-    if first == "run" && before.contains(" seeds ") && rest.starts_with(',') {
+    if first == "run" && before.contains(" seeds ") && (rest.starts_with(',') || is_digits(last)) {
         return only("seeds are a range, with both its ends: `seeds 1..3`");
     }
     if first == "run" && !(before.contains(" in ") && before.contains(" seeds ")) {
@@ -154,7 +154,13 @@ fn unfinished(before: &str, rest: &str) -> Option<Habit> {
         ("every", _, "") if rest.starts_with('{') => {
             "beside a body it is a reaction, which stands before that: `on every 10 min { … }`; a body does it in a loop: `loop { wait for 10 min; … }`"
         }
-        ("ask", _, _) => "write `ask PAYLOAD.ACTION() within 10 s`; a payload takes no arguments",
+        ("ask", _, _) | (_, "ask", _) => "write `ask PAYLOAD.ACTION() within 10 s`; a payload takes no arguments",
+        (_, last, "") if rest.starts_with(']') && last.contains("Map[") => {
+            "say how many cells it has at most: `Map[Ratio; 400]`"
+        }
+        ("report", last, _) if last.ends_with(',') && !rest.starts_with(|c: char| c.is_alphabetic()) => {
+            "what follows the first value has a label each: `report \"NAME\": position, depth: depth`"
+        }
         ("record", _, "every") => "how often is a rate: `record temperature at 0.1 Hz` is every ten seconds",
         ("record", _, "") if rest.starts_with('.') => "an input is recorded whole: with all that it tells",
         ("record", last, "") if last != "at" => "say how often: `record temperature, salinity at 1 Hz`",

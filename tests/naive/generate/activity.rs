@@ -1,6 +1,6 @@
 //! Declarations: functions, overlays, behaviors, strategies and the mission.
 
-use super::{Callable, Generator, Name, Ty};
+use super::{Callable, Generator, Name, Ty, derived};
 
 impl Generator {
     pub(super) fn file(&mut self) {
@@ -20,6 +20,7 @@ impl Generator {
         for _ in 0..1 + self.random.below(2) {
             self.behavior();
         }
+        self.givables_and_takers();
         for _ in 0..1 + self.random.below(2) {
             self.budget = 40;
             self.strategy();
@@ -27,6 +28,7 @@ impl Generator {
         if self.is_guest {
             self.guests();
         }
+        self.derived_strategies();
         self.budget = 60;
         self.mission();
     }
@@ -50,6 +52,7 @@ impl Generator {
         self.line("    for each in some { sum = sum + nearer(each, 0) / n }");
         self.line("    sum");
         self.line("}");
+        self.functions_of_maps();
         self.line("fn found_if(wanted: Bool, found: Found) -> Found? { if wanted { found } else { none } }");
         self.line("fn turned(h: Heading, mode: Mode) -> Heading {");
         self.line("    var to = h");
@@ -90,7 +93,8 @@ impl Generator {
     /// Memories, signals, reactions.
     pub(super) fn declarations(&mut self, most: usize) {
         for _ in 0..self.random.below(most + 1) {
-            match self.random.below(6) {
+            match self.random.below(7) {
+                6 => self.memory_of_shares(),
                 0 => {
                     self.count("signal");
                     let (name, condition) = (self.fresh("s"), self.condition());
@@ -192,6 +196,7 @@ impl Generator {
         self.braces(&format!("behavior {name}{params}{arrow}"), |g| {
             g.may_abort = true;
             g.finish = Some(result);
+            g.records();
             g.declarations(3);
             g.reactions("reaction of a behavior", 2);
             g.aborts(5);
@@ -217,60 +222,69 @@ impl Generator {
         let result = self.result();
         let arrow = result.map_or(String::new(), |ty| format!(" -> {}", ty.name()));
         self.braces(&format!("strategy {name}{params}{arrow}"), |g| {
+            g.records();
+            let outside = g.names.clone();
             g.declarations(4);
+            let inside = g.names.clone();
             g.reactions("reaction of a strategy", 2);
             g.aborts(8);
             if g.random.percent(25) {
                 let with = g.with();
                 g.line(&with);
             }
-            g.table(result);
+            let behaviors = g.table(result);
+            g.bases.push(derived::Base { name: name.clone(), outside, inside, behaviors });
         });
         self.names = before;
         self.behaviors.push(Callable { name, params: types, needed, result });
     }
 
     /// Behaviors and rules. The last behavior is entered `then back` only, unless there is no such rule.
-    fn table(&mut self, result: Option<Ty>) {
+    fn table(&mut self, result: Option<Ty>) -> Vec<(String, bool)> {
         self.count("table");
         let count = 2 + self.random.below(3);
         let names: Vec<String> = (0..count).map(|_| self.fresh("b")).collect();
         let ends: Vec<bool> = (0..count).map(|i| i + 1 == count || self.random.percent(60)).collect();
         for (name, ends) in names.iter().zip(&ends) {
-            self.braces(&format!("behavior {name}"), |g| {
-                g.may_abort = true;
-                g.finish = ends.then_some(None);
-                g.declarations(2);
-                g.reactions("reaction of a table's behavior", 1);
-                if g.random.percent(20) {
-                    let with = g.with();
-                    g.line(&with);
-                }
-                if g.random.percent(10) {
-                    g.count("body that takes no time");
-                    let condition = g.filled("$L < 0 m", 0);
-                    g.line(&format!("while {condition} {{ wait for 100 ms }}"));
-                } else {
-                    g.statements(3);
-                }
-                if !ends {
-                    // The last never ends, so that neither does the behavior.
-                    let (_, text) = loop {
-                        let (_, ends, text) = g.guidance();
-                        if !ends {
-                            break (ends, text);
-                        }
-                    };
-                    g.line(&text);
-                }
-                g.finish = None;
-            });
+            self.behavior_of_table(name, *ends);
         }
         self.line(&format!("start {}", names[0]));
         self.rules(&names, &ends, result);
+        names.into_iter().zip(ends).collect()
     }
 
-    fn rules(&mut self, names: &[String], ends: &[bool], result: Option<Ty>) {
+    pub(super) fn behavior_of_table(&mut self, name: &str, ends: bool) {
+        self.braces(&format!("behavior {name}"), |g| {
+            g.may_abort = true;
+            g.finish = ends.then_some(None);
+            g.declarations(2);
+            g.reactions("reaction of a table's behavior", 1);
+            if g.random.percent(20) {
+                let with = g.with();
+                g.line(&with);
+            }
+            if g.random.percent(10) {
+                g.count("body that takes no time");
+                let condition = g.filled("$L < 0 m", 0);
+                g.line(&format!("while {condition} {{ wait for 100 ms }}"));
+            } else {
+                g.statements(3);
+            }
+            if !ends {
+                // The last never ends, so that neither does the behavior.
+                let (_, text) = loop {
+                    let (_, ends, text) = g.guidance();
+                    if !ends {
+                        break (ends, text);
+                    }
+                };
+                g.line(&text);
+            }
+            g.finish = None;
+        });
+    }
+
+    pub(super) fn rules(&mut self, names: &[String], ends: &[bool], result: Option<Ty>) {
         let pause = names.len() - 1;
         let mut rules: Vec<String> = Vec::new();
         // The pause can be entered.
@@ -408,6 +422,8 @@ impl Generator {
                 "area op = rectangle(center: point(north: 0 m, east: 0 m), along: 20 deg, length: 90 m, width: 60 m)",
             );
             g.has_area = true;
+            g.declare("op", Ty::Area, false);
+            g.region();
             if g.random.percent(50) {
                 g.count("limits");
                 g.line("limits { altitude >= 2 m, depth <= 11.5 m, speed <= 1.8 m/s }");
@@ -431,6 +447,7 @@ impl Generator {
                 "depth 3 m".to_string()
             };
             g.line(&format!("with speed 1 m/s, {vertical}"));
+            g.records();
             g.declarations(4);
             if g.random.percent(20) {
                 let with = g.with();
@@ -442,7 +459,7 @@ impl Generator {
             if g.is_guest {
                 g.guest_body();
             } else if g.random.percent(40) {
-                g.table(None);
+                let _ = g.table(None);
             } else {
                 g.count("sequence");
                 g.finish = Some(None);
@@ -469,6 +486,7 @@ impl Generator {
                 "depth fresh 1 s, else abort",
                 "battery fresh 1 s, at first 70 %, else hold for 500 ms then abort",
                 "speed fresh 1 s, else hold for 300 ms then abort",
+                "utc fresh 3 s, at first 2026-08-14T05:00Z, else hold for 500 ms then abort",
                 "water_depth fresh 600 ms, else hold for 600 ms then abort",
             ];
             entries.extend(more);

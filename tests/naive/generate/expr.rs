@@ -1,9 +1,16 @@
 //! Expressions of a wanted type. Every operation stands in parentheses: precedence is the parser's business.
 
+use super::area::operation_of_place;
 use super::{Generator, Ty};
+use crate::random::Random;
 
 /// What makes a truth.
-const CONDITIONS: [&str; 20] = [
+const CONDITIONS: [&str; 25] = [
+    "($E > $E)",
+    "($T < $T)",
+    "($Z.contains($P))",
+    "($C == $C)",
+    "($E == $E)",
     "($L < $L)",
     "($L >= $L)",
     "($R > $R)",
@@ -27,8 +34,27 @@ const CONDITIONS: [&str; 20] = [
     "($i.count > 1)",
 ];
 
+/// What makes a whole number.
+const INTS: [&str; 12] = [
+    "($I + $I)",
+    "($I - $I)",
+    "($I * 2)",
+    "$i.count",
+    "min($I, $I)",
+    "floor($R)",
+    "round($R * 3)",
+    "($i.first else $I)",
+    "($i[abs($I)] else $I)",
+    "$q.count",
+    "$i.top($I).count",
+    "many($I, $M)",
+];
+
 /// What makes a length.
-const LENGTHS: [&str; 19] = [
+const LENGTHS: [&str; 22] = [
+    "$Z.gap($P)",
+    "$Z.run($P, toward: $H)",
+    "$C.cell",
     "($L + $L)",
     "($L - $L)",
     "($R * $L)",
@@ -51,7 +77,12 @@ const LENGTHS: [&str; 19] = [
 ];
 
 /// What makes a ratio.
-const RATIOS: [&str; 15] = [
+const RATIOS: [&str; 20] = [
+    "(($E - $E) / 7 s)",
+    "($T / 2 s)",
+    "total($C)",
+    "entropy($C)",
+    "($C[$P] else $R)",
     "($R + $R)",
     "($R - $R)",
     "($R * $R)",
@@ -133,6 +164,11 @@ impl Generator {
                 b'F' => Ty::Found,
                 b'l' => Ty::MaybeLength,
                 b'p' => Ty::MaybePoint,
+                b'E' => Ty::Date,
+                b'T' => Ty::Time,
+                b'Z' => Ty::Area,
+                b'C' => Ty::Shares,
+                b'N' => Ty::Marks,
                 b'i' => Ty::Ints,
                 b'q' => Ty::Points,
                 other => panic!("no type for `{}`", char::from(other)),
@@ -183,6 +219,8 @@ impl Generator {
             Ty::Ints => "$i".to_string(),
             Ty::Points => "$q".to_string(),
             Ty::Cells => panic!("a map is made where it is kept"),
+            Ty::Date | Ty::Time => self.leaf_of_time(ty),
+            Ty::Area | Ty::Shares | Ty::Marks => self.leaf_of_place(ty),
         }
     }
 
@@ -193,20 +231,7 @@ impl Generator {
             Ty::Bool if senses && r.percent(5) => "(new chemical)",
             Ty::Bool => r.of(&CONDITIONS),
             Ty::Int if senses && r.percent(30) => "chemical.hits($R, of: 4)",
-            Ty::Int => r.of(&[
-                "($I + $I)",
-                "($I - $I)",
-                "($I * 2)",
-                "$i.count",
-                "min($I, $I)",
-                "floor($R)",
-                "round($R * 3)",
-                "($i.first else $I)",
-                "($i[abs($I)] else $I)",
-                "$q.count",
-                "$i.top($I).count",
-                "many($I, $M)",
-            ]),
+            Ty::Int => r.of(&INTS),
             Ty::Length => r.of(&LENGTHS),
             Ty::Ratio if senses && r.percent(10) => "(elapsed / 7 s)",
             Ty::Ratio if senses && r.percent(20) => "(chemical.age / 3 s)",
@@ -236,6 +261,8 @@ impl Generator {
                 "($q.first else $P)",
                 "$F.at",
                 "($q[abs($I)] else $P)",
+                "$Z.center",
+                "$Z.corner(toward: $H)",
             ]),
             Ty::Vector if senses && r.percent(20) => "(flow * 20 s)",
             Ty::Vector => {
@@ -249,17 +276,49 @@ impl Generator {
             ]),
             Ty::Depth => r.of(&["max($D, 2 m)", "min($D, 15 m)", "clamp($D, 1 m, 12 m)", "($D + position.sigma)"]),
             Ty::Mode => "mode_of($I)",
-            Ty::Found => {
-                r.of(&["Found(at: $P, size: $L, mode: $M)", "($F with (size: $L))", "($F with (mode: $M, at: $P))"])
-            }
+            Ty::Found => r.of(&[
+                "($N[$P] else $F)",
+                "Found(at: $P, size: $L, mode: $M)",
+                "($F with (size: $L))",
+                "($F with (mode: $M, at: $P))",
+            ]),
             Ty::MaybeLength => r.of(&["near($P, $L)", "near($q[abs($I)] else $P, $L)", "one_of([$L, none, $l], $I)"]),
-            Ty::MaybePoint => r.of(&["$q.first", "$q[abs($I)]", "$q.top($I)[abs($I)]", "place_of([$p, $P, none], $I)"]),
-            Ty::MaybeFound => "found_if($B, $F)",
+            Ty::MaybePoint => r.of(&[
+                "peak($C)",
+                "centroid($C)",
+                "$q.first",
+                "$q[abs($I)]",
+                "$q.top($I)[abs($I)]",
+                "place_of([$p, $P, none], $I)",
+            ]),
+            Ty::MaybeFound => r.of(&["found_if($B, $F)", "$N[$P]"]),
             Ty::Ints => "$i",
             Ty::Points => "$q",
             Ty::Cells => panic!("a map is made where it is kept"),
+            Ty::Date | Ty::Time => operation_of_time(r, ty),
+            Ty::Area | Ty::Shares | Ty::Marks => operation_of_place(r, ty),
         }
         .to_string()
+    }
+
+    fn leaf_of_time(&mut self, ty: Ty) -> String {
+        let senses = !self.is_pure;
+        let second = self.random.below(60);
+        match ty {
+            Ty::Date if senses && self.random.percent(50) => {
+                self.count("utc");
+                "utc".to_string()
+            }
+            Ty::Date => {
+                self.count("date");
+                format!("2026-08-14T05:00:{second:02}Z")
+            }
+            _ if senses && self.random.percent(40) => {
+                self.count("elapsed");
+                "elapsed".to_string()
+            }
+            _ => format!("{second} s"),
+        }
     }
 
     /// Some ticks.
@@ -267,6 +326,7 @@ impl Generator {
         match self.random.below(6) {
             0 => self.filled("clamp(abs($L) / (10 m/s), 100 ms, 900 ms)", 1),
             1 => self.filled("max($I * 200 ms, 50 ms)", 0),
+            2 if self.random.percent(50) => self.filled("clamp($T, 100 ms, 900 ms)", 1),
             _ => format!("{} ms", 50 + 50 * self.random.below(30)),
         }
     }
@@ -288,5 +348,21 @@ impl Generator {
         };
         self.count(feature);
         text
+    }
+}
+
+/// Dates, and times that are never negative.
+fn operation_of_time(random: &mut Random, ty: Ty) -> &'static str {
+    match ty {
+        Ty::Date => random.of(&["($E + $T)", "($E - $T)", "max($E, $E)", "min($E, $E)", "clamp($E, $E, $E)"]),
+        _ => random.of(&[
+            "($T + $T)",
+            "max(0 s, $E - $E)",
+            "abs($E - $E)",
+            "clamp($T, 0 s, 9 s)",
+            "min($T, $T)",
+            "abs($L / (2 m/s))",
+            "(abs($R) * $T)",
+        ]),
     }
 }

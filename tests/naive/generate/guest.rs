@@ -114,9 +114,11 @@ impl Generator {
             15 => self.ask(),
             16 | 17 if !self.guests.is_empty() => {
                 self.count("call of a guest");
+                let takers = std::mem::take(&mut self.takers);
                 std::mem::swap(&mut self.behaviors, &mut self.guests);
                 self.call();
                 std::mem::swap(&mut self.behaviors, &mut self.guests);
+                self.takers = takers;
             }
             18 if self.finish.is_some() => {
                 let condition = self.expr(Ty::Bool, 1);

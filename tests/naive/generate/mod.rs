@@ -1,7 +1,10 @@
 //! Sound scripts by chance, over all that the rules of time speak of.
 
 mod activity;
+mod area;
+mod derived;
 mod expr;
+mod given;
 mod guest;
 mod overlay;
 mod stmt;
@@ -30,7 +33,31 @@ pub enum Ty {
     Ints,
     Points,
     Cells,
+    Date,
+    Time,
+    Area,
+    Shares,
+    Marks,
 }
+
+const VALUES: [Ty; 16] = [
+    Ty::Bool,
+    Ty::Int,
+    Ty::Length,
+    Ty::Ratio,
+    Ty::Angle,
+    Ty::Heading,
+    Ty::Point,
+    Ty::Vector,
+    Ty::Found,
+    Ty::Mode,
+    Ty::MaybeLength,
+    Ty::MaybePoint,
+    Ty::MaybeFound,
+    Ty::Date,
+    Ty::Time,
+    Ty::Area,
+];
 
 impl Ty {
     fn name(self) -> &'static str {
@@ -41,6 +68,11 @@ impl Ty {
             Ty::Ints => "[Int; 4]",
             Ty::Points => "[Point; 3]",
             Ty::Cells => "Map[Int; 6]",
+            Ty::Shares => "Map[Ratio; 12]",
+            Ty::Marks => "Map[Found; 4]",
+            Ty::Date => "Date",
+            Ty::Time => "Duration",
+            Ty::Area => "Area",
             Ty::Bool => "Bool",
             Ty::Int => "Int",
             Ty::Length => "Length",
@@ -54,6 +86,20 @@ impl Ty {
             Ty::Mode => "Mode",
             Ty::Found => "Found",
         }
+    }
+
+    /// What a map holds.
+    fn cell(self) -> Option<Ty> {
+        match self {
+            Ty::Cells => Some(Ty::Int),
+            Ty::Shares => Some(Ty::Ratio),
+            Ty::Marks => Some(Ty::Found),
+            _ => None,
+        }
+    }
+
+    fn or_length(self) -> Ty {
+        if self == Ty::Time { Ty::Length } else { self }
     }
 
     /// What `T?` holds.
@@ -106,6 +152,11 @@ pub struct Generator {
     verticals: Vec<Callable>,
     /// Its mission is a guest of the vehicle.
     is_guest: bool,
+    /// Those that take behaviors, and what can be given to them.
+    takers: Vec<given::Taker>,
+    givables: Vec<given::Givable>,
+    /// Strategies from which others can be derived.
+    bases: Vec<derived::Base>,
     /// Functions read no inputs.
     is_pure: bool,
     /// A mission's area can be read.
@@ -134,6 +185,9 @@ pub fn script(seed: u64) -> (String, BTreeMap<&'static str, usize>) {
         bends: Vec::new(),
         verticals: Vec::new(),
         is_guest: seed % 3 == 1,
+        takers: Vec::new(),
+        givables: Vec::new(),
+        bases: Vec::new(),
         is_pure: false,
         has_area: false,
         finish: None,
@@ -148,6 +202,10 @@ pub fn script(seed: u64) -> (String, BTreeMap<&'static str, usize>) {
 }
 
 impl Generator {
+    fn any_type(&mut self) -> Ty {
+        VALUES[self.random.below(VALUES.len())]
+    }
+
     fn line(&mut self, line: &str) {
         self.out.push_str(&"    ".repeat(self.depth));
         self.out.push_str(line);

@@ -2,27 +2,7 @@
 
 use super::{Generator, Ty};
 
-const VALUES: [Ty; 13] = [
-    Ty::Bool,
-    Ty::Int,
-    Ty::Length,
-    Ty::Ratio,
-    Ty::Angle,
-    Ty::Heading,
-    Ty::Point,
-    Ty::Vector,
-    Ty::Found,
-    Ty::Mode,
-    Ty::MaybeLength,
-    Ty::MaybePoint,
-    Ty::MaybeFound,
-];
-
 impl Generator {
-    pub(super) fn any_type(&mut self) -> Ty {
-        VALUES[self.random.below(VALUES.len())]
-    }
-
     /// Some statements of a body.
     pub(super) fn statements(&mut self, most: usize) {
         let count = 1 + self.random.below(most);
@@ -165,6 +145,9 @@ impl Generator {
     }
 
     pub(super) fn call(&mut self) {
+        if !self.takers.is_empty() && self.random.percent(35) {
+            return self.call_of_taker();
+        }
         let callee = self.behaviors[self.random.below(self.behaviors.len())].clone();
         let args = self.arguments(&callee.params, callee.needed);
         let mut text = format!("{}({args})", callee.name);
@@ -284,21 +267,23 @@ impl Generator {
                     });
                 });
             }
-            5 if self.has_area => {
+            5 => {
                 self.count("for rows");
                 let name = self.fresh("row");
+                let area = self.area();
                 let near = self.perhaps(", near: ", Ty::Point);
                 let along = self.perhaps(", along: ", Ty::Heading);
-                self.braces(&format!("for {name} in op.rows(40 m{near}{along})"), |g| {
+                self.braces(&format!("for {name} in {area}.rows(40 m{near}{along})"), |g| {
                     let time = g.time();
                     g.line(&format!("follow {name} for {time}"));
                     g.line(&format!("log \"{{{name}}}\""));
                 });
             }
-            _ if self.has_area => {
+            _ if self.random.percent(70) => {
                 self.count("for edges");
                 let name = self.fresh("edge");
-                self.braces(&format!("for {name} in op.edges"), |g| {
+                let area = self.area();
+                self.braces(&format!("for {name} in {area}.edges"), |g| {
                     let (time, heading) = (g.time(), g.expr(Ty::Heading, 1));
                     g.line(&format!("steer {name}.tangent(nearest: {heading}) for {time}"));
                 });
@@ -309,13 +294,13 @@ impl Generator {
 
     /// `for` over a range or a list.
     pub(super) fn rounds(&mut self, inside: fn(&mut Self)) {
-        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells));
+        let list = self.named(|name| matches!(name.ty, Ty::Ints | Ty::Points | Ty::Cells | Ty::Shares | Ty::Marks));
         match (self.random.below(3), list) {
-            (0, Some(map)) if map.ty == Ty::Cells => {
+            (0, Some(map)) if map.ty.cell().is_some() => {
                 self.count("for map");
                 let (name, place) = (self.fresh("each"), self.fresh("place"));
                 self.braces(&format!("for {name} at {place} in {}", map.text), |g| {
-                    g.declare(&name, Ty::Int, false);
+                    g.declare(&name, map.ty.cell().unwrap_or(Ty::Int), false);
                     g.declare(&place, Ty::Point, false);
                     inside(g);
                 });
@@ -466,6 +451,12 @@ impl Generator {
                 let (place, value) = (self.expr(Ty::Point, 2), self.expr(Ty::Int, 2));
                 self.line(&format!("{text}[{place}] = {value}"));
             }
+            Ty::Shares | Ty::Marks if self.random.percent(60) => {
+                self.count("share set");
+                let of = if memory.ty == Ty::Shares { Ty::Ratio } else { Ty::Found };
+                let (place, value) = (self.expr(Ty::Point, 2), self.expr(of, 2));
+                self.line(&format!("{text}[{place}] = {value}"));
+            }
             ty => {
                 self.count("assignment");
                 let value = self.expr(ty, 3);
@@ -482,7 +473,8 @@ impl Generator {
                 1 if self.nested < 4 => self.rounds(Self::instantly),
                 2 => {
                     self.count("var");
-                    let (name, ty) = (self.fresh("v"), self.any_type());
+                    // Of a variable nobody knows that it is never negative.
+                    let (name, ty) = (self.fresh("v"), self.any_type().or_length());
                     let value = self.expr(ty, 1);
                     self.line(&format!("var {name}: {} = {value}", ty.name()));
                     self.declare(&name, ty, true);

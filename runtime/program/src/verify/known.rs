@@ -321,9 +321,9 @@ impl Known {
     /// What is told that differs from what was told at this place before is told no more, so that an end is found.
     pub fn settle(&mut self, before: &Known) {
         for (slot, implications) in &mut self.implications {
-            if before.implications.get(slot) != Some(implications) {
-                *implications = Implications::default();
-            }
+            let told = before.implications.get(slot).cloned().unwrap_or_default();
+            implications.when.retain(|implied| told.when.contains(implied));
+            implications.unless.retain(|implied| told.unless.contains(implied));
         }
     }
 }
