@@ -4,7 +4,7 @@ use super::Unsound;
 use super::known::{Implications, Known, Word, widened};
 use super::ranges::{PATIENCE, Ranges, Results};
 use super::written::written;
-use crate::{ABSOLUTE, Addr, AreaOp, Compute, ListOp, MapOp, Op, OverrideEnd, Param, Slot};
+use crate::{ABSOLUTE, ActivityKind, Addr, AreaOp, Body, Compute, ListOp, MapOp, Op, OverrideEnd, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
 
@@ -225,10 +225,16 @@ impl Ranges<'_> {
             },
             Op::Enter { call } | Op::Step { call, .. } | Op::Cut { call, .. } => {
                 if let Some((activity, base)) = self.called(call) {
+                    let block = match activity.body {
+                        Body::Sequence(block) if activity.kind == ActivityKind::Override => Some(block),
+                        _ => None,
+                    };
+                    let code = activity.entry;
                     if matches!(op, Op::Enter { .. }) {
-                        self.arguments(at, known, activity.entry, base)?;
+                        self.arguments(at, known, code, base)?;
+                        block.into_iter().for_each(|block| self.enter(block, known));
                     }
-                    self.runs(entry, at, known, activity.entry, base)?;
+                    self.runs(entry, at, known, code, base)?;
                 }
                 if let Op::Step { ended, .. } = *op {
                     self.set(known, ended, Word::TRUTH);

@@ -81,6 +81,8 @@ pub(super) struct Ranges<'p> {
     pub(super) timers: BTreeMap<Slot, Option<Vec<(Slot, Interval)>>>,
     /// What operations of the piece at hand have given.
     pub(super) results: BTreeMap<Addr, Results>,
+    /// What is known where the blocks of overrides begin.
+    pub(super) entered: BTreeMap<Addr, Known>,
     pub(super) holds_to_it: bool,
 }
 
@@ -112,6 +114,7 @@ impl<'p> Ranges<'p> {
             writers: vec![Writer::Nobody; unit.words as usize],
             timers: BTreeMap::new(),
             results: BTreeMap::new(),
+            entered: BTreeMap::new(),
             holds_to_it: false,
         };
         // The parameters of a mission are written before anything else runs, and never again.
@@ -182,6 +185,7 @@ impl<'p> Ranges<'p> {
 
     fn unit_code(&mut self, own: &[Addr], guards: &Guards) -> Result<(), Unsound> {
         let mut after: BTreeMap<u32, Known> = BTreeMap::new();
+        self.entered.clear();
         for (&guard, (value, rules)) in guards {
             let Some(mut known) = self.piece(guard, Known::default())? else { continue };
             if !known.assume(&self.ground, *value, true) {
@@ -197,8 +201,10 @@ impl<'p> Ranges<'p> {
         }
         let following: BTreeSet<Addr> =
             guards.values().flat_map(|(_, rules)| rules).flat_map(|rule| self.program.follow(*rule)).collect();
+        // Whoever enters another begins before it.
         for &piece in own.iter().filter(|at| !guards.contains_key(at) && !following.contains(at)) {
-            self.piece(piece, Known::default())?;
+            let start = self.entered.remove(&piece).unwrap_or_default();
+            self.piece(piece, start)?;
         }
         for (rule, known) in after {
             let pieces: Vec<Addr> = self.program.follow(rule).collect();
@@ -361,6 +367,15 @@ impl<'p> Ranges<'p> {
     pub(super) fn called(&self, call: u32) -> Option<(&Activity, Slot)> {
         let site = self.program.calls.get(call as usize)?;
         Some((self.program.activities.get(site.activity as usize)?, site.base))
+    }
+
+    /// An override's block, which shares the frame, begins in the same tick, with what is known where it is entered.
+    pub(super) fn enter(&mut self, block: Addr, known: &Known) {
+        let known = match self.entered.get(&block) {
+            Some(other) => other.join(known, &self.ground),
+            None => known.clone(),
+        };
+        self.entered.insert(block, known);
     }
 
     /// What is called runs: its frame is its own, and what others of this unit write may be written.
