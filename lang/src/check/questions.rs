@@ -78,7 +78,9 @@ impl<'t> Checker<'t> {
             _ => none,
         };
         let var = self.report_var(&what, part, text.span);
-        Some(self.taken_for_granted(var, without, span))
+        let value = self.taken_for_granted(var, without, span);
+        // What nothing reports is told once: it may be anything.
+        Some(if sites.is_empty() && asks_for_value { self.unknown(span) } else { value })
     }
 
     /// `times_asked("camera.start")`: how often the mission asked that; `times_recorded("temperature")`: how many samples of it were recorded.

@@ -9,19 +9,22 @@ use albacore_program::{ActivityKind, CallSite, Cause, Compute, Op, OverrideEnd, 
 impl<'a> Lowering<'a> {
     /// The first tick of an override: it is entered, and asks.
     pub(super) fn begin_override(&mut self, o: &hir::Override, setpoints: Slot) -> Running {
-        let end = self.lasting(1);
+        let (end, taken) = (self.lasting(1), self.lasting(1));
         self.emit(Compute::Const { to: end, value: OverrideEnd::Completed.number() });
+        // Who has not asked lacks no answer.
+        self.emit(Compute::Const { to: taken, value: f64::from(u8::from(o.offered)) });
         let over = self.emit(Compute::jump(0));
         let caller = self.frame.header;
         let activity = self.block_activity("override", ActivityKind::Override, |l, header| {
             l.ask(o, header, end);
+            l.emit(Compute::Const { to: taken, value: 1.0 });
             l.stmts(&o.block.stmts);
         });
         self.land(over);
         self.program.calls.push(CallSite { activity, caller, base: 0, setpoints });
         let call = self.program.calls.len() as u32 - 1;
         self.emit(Op::Enter { call });
-        Running::Override { call, end }
+        Running::Override { call, end, taken }
     }
 
     /// Every later tick: while the vehicle suspends us the block stands still, and when it takes control back it is left.

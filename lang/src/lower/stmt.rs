@@ -295,9 +295,14 @@ impl<'a> Lowering<'a> {
         if let Running::Call { call, .. } | Running::Override { call, .. } = *action {
             self.emit(Op::Cut { call, cause });
         }
-        if let Running::Override { end, .. } = *action {
+        if let Running::Override { end, taken, .. } = *action {
             let value = if is_normal { OverrideEnd::Completed } else { OverrideEnd::TimedOut };
             self.emit(Compute::Const { to: end, value: value.number() });
+            if is_normal {
+                let was_taken = self.emit(Compute::jump_if(taken, 0));
+                self.emit(Compute::Const { to: end, value: OverrideEnd::NoAnswer.number() });
+                self.land(was_taken);
+            }
             return;
         }
         if let Running::Ask { id, .. } = *action {
@@ -421,7 +426,7 @@ impl<'a> Lowering<'a> {
             }
             (Running::Keep { .. }, Action::Keep(_, e)) => self.keep(running, e, setpoints, ended),
             (Running::Call { call, .. }, _) => _ = self.emit(Op::Step { call: *call, ended }),
-            (Running::Override { call, end }, _) => self.step_override(*call, *end, ended),
+            (Running::Override { call, end, .. }, _) => self.step_override(*call, *end, ended),
             (Running::Ask { id, answer }, _) => _ = self.emit(Op::Heard { id: *id, answer: *answer, ended }),
             _ => {}
         }
@@ -445,6 +450,6 @@ pub(super) enum Running {
     Keep { channel: Channel, value: Slot, own: Slot, state: Slot },
     Call { call: u32, result: Slot },
     Watch,
-    Override { call: u32, end: Slot },
+    Override { call: u32, end: Slot, taken: Slot },
     Ask { id: Slot, answer: Slot },
 }

@@ -203,6 +203,8 @@ impl<'p> Overriding<'p> {
         match end {
             End::ByItself => self.end,
             End::Cut(Cause::TimedOut) => OverrideEnd::TimedOut,
+            // It has asked, and nobody has answered.
+            End::Cut(_) if !self.is_given && !self.written.offered => OverrideEnd::NoAnswer,
             End::Cut(_) => OverrideEnd::Completed,
         }
     }
