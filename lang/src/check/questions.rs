@@ -6,7 +6,7 @@ use super::truth::TestScope;
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::dimension::Dimension;
-use crate::hir::{Builtin, Counted, Expr, ExprKind, Interval, ReportPart, TextPart, VarKind};
+use crate::hir::{Builtin, Counted, Expr, ExprKind, Interval, ReportPart, TextPart, VarKind, Which};
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
@@ -17,12 +17,14 @@ use std::collections::{BTreeMap, BTreeSet};
 const QUESTIONS: [&str; 6] =
     ["reported", "reported_at", "has_reported", "last_reported", "last_reported_at", "times_reported"];
 
+/// The greatest number of a report that can be asked for.
+const NUMBER_MAX: f64 = 1e6;
 /// No run reports more often: so many lines in each of its ticks.
 const REPORTS_MAX: f64 = 1e12;
 
 impl<'t> Checker<'t> {
     /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether; with `last_`
-    /// the last of its reports, and `times_reported("source")` how many there were. Where no `has_reported` shows that there is one, an
+    /// the last of its reports, with `number: 2` the second, and `times_reported("source")` how many there were. Where no `has_reported` shows that there is one, an
     /// expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
@@ -36,10 +38,12 @@ impl<'t> Checker<'t> {
             return None;
         }
         let asks_for_value = matches!(name, "reported" | "last_reported");
+        let (args, which) = self.which(name, args);
+        let args = args.as_slice();
         if asks_for_value && args.len() == 2 {
             let Some([text, label]) = self.positional::<2>(name, args, span) else { return Some(self.unknown(span)) };
             let (what, label_text) = (self.plain_text(&text), self.plain_text(&label));
-            return Some(self.reported_value(&what, (&label_text, label.span), name == "reported", span));
+            return Some(self.reported_value(&what, (&label_text, label.span), which, span));
         }
         if asks_for_value && args.len() > 2 {
             let message =
@@ -56,31 +60,65 @@ impl<'t> Checker<'t> {
         // What is reported as a place each time is one whenever it was reported.
         let all_places = values.iter().copied().all(is_place);
         if asks_for_value && !values.is_empty() && !values.iter().copied().any(is_place) {
-            return Some(self.reported_value(&what, ("", text.span), name == "reported", span));
+            return Some(self.reported_value(&what, ("", text.span), which, span));
         }
-        let none = format!("nothing was reported as \"{what}\"");
-        let no_place = |which: &str| format!("the {which} report \"{what}\" has no place, or there is none");
         let part = match name {
             "times_reported" => {
                 let count = self.report_var(&what, ReportPart::Count, text.span);
                 return Some(self.variable(count, span));
             }
-            "has_reported" => return Some(self.has_reported(&what, all_places, text.span, span)),
-            "reported_at" => ReportPart::FirstTime,
-            "last_reported_at" => ReportPart::LastTime,
-            "last_reported" => ReportPart::LastPlace,
-            _ => ReportPart::FirstPlace,
+            "has_reported" => return Some(self.has_reported(&what, which, all_places, text.span, span)),
+            "reported_at" | "last_reported_at" => ReportPart::Time(which),
+            _ => ReportPart::Place(which),
         };
         // Whether it was reported is known with when.
         let without = match (&part, all_places) {
-            (ReportPart::FirstPlace, false) => no_place("first"),
-            (ReportPart::LastPlace, false) => no_place("last"),
-            _ => none,
+            (ReportPart::Place(_), false) => format!("{} has no place, or there is none", told(which, &what)),
+            _ => lacking(which, &what),
         };
         let var = self.report_var(&what, part, text.span);
         let value = self.taken_for_granted(var, without, span);
         // What nothing reports is told once: it may be anything.
         Some(if sites.is_empty() && asks_for_value { self.unknown(span) } else { value })
+    }
+
+    /// Which report of a name a question is about, and its other arguments.
+    fn which(&mut self, name: &str, args: &[tree::Arg]) -> (Vec<tree::Arg>, Which) {
+        let is_number = |arg: &tree::Arg| arg.label.as_ref().is_some_and(|label| label.node == "number");
+        let (numbers, args): (Vec<tree::Arg>, Vec<tree::Arg>) = args.iter().cloned().partition(is_number);
+        let of_name = if name.starts_with("last_") { Which::Last } else { Which::FIRST };
+        if let [_, second, ..] = numbers.as_slice() {
+            self.report(Diagnostic::error(Code::ArgsTwice, second.value.span, "`number` is given twice"));
+        }
+        let Some(number) = numbers.into_iter().next() else {
+            if let [_, arg] = args.as_slice()
+                && matches!(arg.value.kind, tree::ExprKind::Number { .. })
+            {
+                let message = "this is neither the name of a report nor a label of it";
+                let finding = Diagnostic::error(Code::ArgsLabel, arg.value.span, message);
+                self.report(finding.help(format!("the second report is `{name}(\"NAME\", number: 2)`")));
+                return (args[..1].to_vec(), of_name);
+            }
+            return (args, of_name);
+        };
+        let span = number.value.span;
+        if !matches!(name, "reported" | "reported_at" | "has_reported") {
+            let finding = Diagnostic::error(Code::ArgsLabel, span, format!("`{name}` asks for no report of a number"));
+            let help = "`reported`, `reported_at` and `has_reported` do: `reported(\"NAME\", number: 2)` is the second";
+            self.report(finding.help(help));
+            return (args, of_name);
+        }
+        let value = self.expr_as(&number.value, &Type::Int, "the number of a report");
+        match value.range.constant() {
+            Some(of) if (1.0..=NUMBER_MAX).contains(&of) => (args, Which::Number(of as u32)),
+            _ => {
+                if value.ty != Type::Unknown {
+                    let message = format!("which report it is must be known: a number from 1 to {NUMBER_MAX}");
+                    self.report(Diagnostic::error(Code::TestsReport, span, message));
+                }
+                (args, of_name)
+            }
+        }
     }
 
     /// `times_asked("camera.start")`: how often the mission asked that; `times_recorded("temperature")`: how many samples of it were recorded.
@@ -164,13 +202,11 @@ impl<'t> Checker<'t> {
     }
 
     /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in the first report of a name or in the last.
-    fn reported_value(&mut self, what: &str, (label, at): (&str, Span), first: bool, span: Span) -> Expr {
+    fn reported_value(&mut self, what: &str, (label, at): (&str, Span), which: Which, span: Span) -> Expr {
         let sites = self.test.as_ref().and_then(|test| test.reports.get(what).cloned()).unwrap_or_default();
         let types: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get(label)).collect();
-        let which = if first { "first" } else { "last" };
-        let time = if first { ReportPart::FirstTime } else { ReportPart::LastTime };
         // Whether there is such a report at all is known with when; a name that nothing reports is told there.
-        let when = self.report_var(what, time, span);
+        let when = self.report_var(what, ReportPart::Time(which), span);
         let Some(ty) = types.first().map(|ty| (*ty).clone()) else {
             if !sites.is_empty() {
                 let message = format!("what is reported as \"{what}\" has no label \"{label}\"");
@@ -192,26 +228,28 @@ impl<'t> Checker<'t> {
             self.report(finding.help("`has_reported` tells whether it was reported, `reported_at` when"));
             return self.unknown(span);
         }
-        let part = if first { ReportPart::FirstValue } else { ReportPart::LastValue };
-        let var = self.report_var_of(what, part(label.to_string()), ty.optional(), span);
+        let var = self.report_var_of(what, ReportPart::Value(which, label.to_string()), ty.optional(), span);
         if types.len() < sites.len() {
-            let without = format!("the {which} report \"{what}\" has no \"{label}\", or there is none");
+            let without = format!("{} has no \"{label}\", or there is none", told(which, what));
             return self.taken_for_granted(var, without, span);
         }
-        self.taken_for_granted(when, format!("nothing was reported as \"{what}\""), span);
+        self.taken_for_granted(when, lacking(which, what), span);
         self.variable(var, span).unwrapped()
     }
 
     /// Whether something was reported: then its first report and its last are known, and their places, where each is one.
-    fn has_reported(&mut self, what: &str, all_places: bool, named: Span, span: Span) -> Expr {
-        let parts: &[ReportPart] = match all_places {
-            true => &[ReportPart::FirstTime, ReportPart::FirstPlace, ReportPart::LastTime, ReportPart::LastPlace],
-            false => &[ReportPart::FirstTime, ReportPart::LastTime],
+    fn has_reported(&mut self, what: &str, which: Which, all_places: bool, named: Span, span: Span) -> Expr {
+        let of = |which| match all_places {
+            true => vec![ReportPart::Time(which), ReportPart::Place(which)],
+            false => vec![ReportPart::Time(which)],
         };
-        let known: Vec<Expr> = parts
+        let shown: &[Which] = if which == Which::FIRST { &[Which::FIRST, Which::Last] } else { &[which] };
+        let known: Vec<Expr> = shown
             .iter()
+            .copied()
+            .flat_map(of)
             .map(|part| {
-                let var = self.report_var(what, part.clone(), named);
+                let var = self.report_var(what, part, named);
                 self.is_known(var, span)
             })
             .collect();
@@ -240,7 +278,7 @@ impl<'t> Checker<'t> {
     /// The variable that holds what is asked of a report: one for each name.
     fn report_var(&mut self, what: &str, part: ReportPart, span: Span) -> usize {
         let ty = match part {
-            ReportPart::FirstTime | ReportPart::LastTime => Type::Quantity(Dimension::TIME).optional(),
+            ReportPart::Time(_) => Type::Quantity(Dimension::TIME).optional(),
             ReportPart::Count => Type::Int,
             _ => Type::Point.optional(),
         };
@@ -262,5 +300,22 @@ impl<'t> Checker<'t> {
             report_vars.insert(key, id);
         }
         id
+    }
+}
+
+/// One of the reports of a name, in words.
+fn told(which: Which, what: &str) -> String {
+    match which {
+        Which::FIRST => format!("the first report \"{what}\""),
+        Which::Number(number) => format!("report number {number} of \"{what}\""),
+        Which::Last => format!("the last report \"{what}\""),
+    }
+}
+
+/// What is said where there is no such report.
+fn lacking(which: Which, what: &str) -> String {
+    match which {
+        Which::FIRST | Which::Last => format!("nothing was reported as \"{what}\""),
+        Which::Number(number) => format!("\"{what}\" was reported fewer than {number} times"),
     }
 }

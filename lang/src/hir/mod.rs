@@ -16,7 +16,7 @@ pub use position::middle;
 pub use same::{mentions_done, same_condition, same_value};
 pub use simulated::{
     ClauseArg, ClauseUse, Counted, Expect, OUTCOMES, ReportPart, Row, Scenario, Test, TestNames, TrueInput, When,
-    test_file_name,
+    Which, test_file_name,
 };
 pub use text::TextPart;
 pub(crate) use text::without_holes;

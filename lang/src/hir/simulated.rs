@@ -188,20 +188,28 @@ pub enum Counted {
 /// What a test asks of a report.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReportPart {
-    /// Where it was first, if it was a place.
-    FirstPlace,
-    /// The seconds until it was first, if it was.
-    FirstTime,
-    /// Where it was last, if that was a place.
-    LastPlace,
-    /// The seconds until it was last, if it was.
-    LastTime,
+    /// Where it was, if it was a place.
+    Place(Which),
+    /// The seconds until it was, if it was.
+    Time(Which),
+    /// What stood behind a label; without a label the value itself.
+    Value(Which, String),
     /// How often it was.
     Count,
-    /// What stood behind a label when it was first; without a label the value itself.
-    FirstValue(String),
-    /// The same when it was last.
-    LastValue(String),
+}
+
+/// One of the reports of a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Which {
+    /// In their order, from 1 on.
+    Number(u32),
+    /// The last so far.
+    Last,
+}
+
+impl Which {
+    /// The first of all.
+    pub const FIRST: Which = Which::Number(1);
 }
 
 /// An expectation.

@@ -2,10 +2,10 @@
 
 use super::Recorder;
 use super::recorded::Recorded;
-use super::results::{Reported, Results};
+use super::results::Results;
 use crate::plan::Plan;
 use albacore_geometry::Point;
-use albacore_lang::hir::{Counted, OUTCOMES, ReportPart, TrueInput, When};
+use albacore_lang::hir::{Counted, OUTCOMES, ReportPart, TrueInput, When, Which};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Event, Outcome};
 use albacore_program::{ActivityId, Display, Shape, Text, number};
@@ -49,10 +49,19 @@ impl<'t> Expectations<'t> {
             let value = evaluation.words(code.value, *words).to_vec();
             evaluation.set(*to, &value);
         }
+        let mut results = Results::new(plan, seed, Some(start));
+        for (part, name, _) in &test.slots.reports {
+            if let ReportPart::Place(Which::Number(number))
+            | ReportPart::Time(Which::Number(number))
+            | ReportPart::Value(Which::Number(number), _) = part
+            {
+                results.reports.want(name, u64::from(*number));
+            }
+        }
         let counts_recorded = test.slots.counts.iter().any(|(counted, ..)| *counted == Counted::Recorded);
         Expectations {
             test,
-            results: Results::new(plan, seed, Some(start)),
+            results,
             evaluation,
             truth: Truth { position: start, ..Truth::default() },
             areas: Vec::new(),
@@ -206,30 +215,18 @@ impl<'t> Expectations<'t> {
             evaluation.set(*slot, &[count as f64]);
         }
         for (part, name, slot) in &slots.reports {
-            let told = results.reports.named(name);
-            if let ReportPart::FirstValue(label) | ReportPart::LastValue(label) = part {
-                let told =
-                    told.map(|told| if matches!(part, ReportPart::FirstValue(_)) { &told.first } else { &told.last });
-                evaluation.set(*slot, &results.labelled(name, label, told));
-                continue;
-            }
-            let place = |report: &Reported| if_any(report.place).to_vec();
-            let time = |report: &Reported| vec![1.0, report.t_s];
-            let words = match (part, told) {
-                (ReportPart::Count, told) => vec![told.map_or(0.0, |told| told.count as f64)],
-                (_, None) => vec![0.0; 3],
-                (ReportPart::FirstPlace, Some(told)) => place(&told.first),
-                (ReportPart::LastPlace, Some(told)) => place(&told.last),
-                (ReportPart::FirstTime, Some(told)) => time(&told.first),
-                (ReportPart::LastTime, Some(told)) => time(&told.last),
-                (ReportPart::FirstValue(_) | ReportPart::LastValue(_), _) => continue,
+            let named = results.reports.named(name);
+            let told = |which: &Which| match which {
+                Which::Number(number) => named?.number(u64::from(*number)),
+                Which::Last => Some(&named?.last),
             };
-            let width = match part {
-                ReportPart::FirstPlace | ReportPart::LastPlace => 3,
-                ReportPart::FirstTime | ReportPart::LastTime => 2,
-                _ => 1,
+            let words = match part {
+                ReportPart::Value(which, label) => results.labelled(name, label, told(which)),
+                ReportPart::Place(which) => if_any(told(which).and_then(|report| report.place)).to_vec(),
+                ReportPart::Time(which) => told(which).map_or(vec![0.0; 2], |report| vec![1.0, report.t_s]),
+                ReportPart::Count => vec![named.map_or(0.0, |named| named.count as f64)],
             };
-            evaluation.set(*slot, &words[..width]);
+            evaluation.set(*slot, &words);
         }
     }
 }

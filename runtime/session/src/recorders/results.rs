@@ -35,6 +35,8 @@ pub(crate) struct Reports {
     sites: BTreeSet<u32>,
     /// All of them, those that are not listed too, by their names.
     named: BTreeMap<String, Named>,
+    /// Which of a name are kept beside the first and the last.
+    wanted: BTreeSet<(String, u64)>,
 }
 
 /// Something that was reported: when, and where, if it was a place.
@@ -53,6 +55,15 @@ pub(crate) struct Named {
     pub first: Reported,
     pub last: Reported,
     pub count: u64,
+    /// Those that are wanted by their numbers.
+    numbered: BTreeMap<u64, Reported>,
+}
+
+impl Named {
+    /// The report of a number, from 1 on, if there is one and it was wanted.
+    pub fn number(&self, number: u64) -> Option<&Reported> {
+        if number == 1 { Some(&self.first) } else { self.numbered.get(&number) }
+    }
 }
 
 impl Reports {
@@ -61,11 +72,22 @@ impl Reports {
         self.named.get(name)
     }
 
+    /// Keeps the report of a number of a name, when it comes.
+    pub fn want(&mut self, name: &str, number: u64) {
+        self.wanted.insert((name.to_string(), number));
+    }
+
     fn count(&mut self, name: &str, reported: Reported) {
         match self.named.get_mut(name) {
-            Some(named) => (named.last, named.count) = (reported, named.count + 1),
+            Some(named) => {
+                named.count += 1;
+                if self.wanted.contains(&(name.to_string(), named.count)) {
+                    named.numbered.insert(named.count, reported.clone());
+                }
+                named.last = reported;
+            }
             None => {
-                let named = Named { first: reported.clone(), last: reported, count: 1 };
+                let named = Named { first: reported.clone(), last: reported, count: 1, numbered: BTreeMap::new() };
                 self.named.insert(name.to_string(), named);
             }
         }
