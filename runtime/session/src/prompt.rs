@@ -15,9 +15,9 @@ use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines, is_hidden};
 use albacore_lang::source::Sources;
 use albacore_machine::{Event, Machine, Outcome};
-use albacore_program::{Program, number};
+use albacore_program::{Program, number, senses};
 use albacore_sim::Scenario;
-use albacore_vehicle::{Control, Snapshot, TICK_S, Vehicle};
+use albacore_vehicle::{Control, Snapshot, TICK_S, Vehicle, measurements};
 use command::{Command, HELP, TICKS_MAX};
 use moment::{Moment, Past, Task};
 use std::collections::BTreeSet;
@@ -187,8 +187,7 @@ impl Prompt {
     fn value(&self, drive: &Drive, known: &[Named]) -> Result<(Arc<Program>, Named), String> {
         let mut machine = self.machine(drive, known)?;
         if let Some(unheard) = drive.reads.iter().find(|&&input| !machine.has_sample(input)) {
-            let name = &machine.program().inputs[*unheard as usize].name;
-            return Err(format!("`{name}` has not been sensed yet; let time go by with `run 30 s`"));
+            return Err(self.unsensed(&machine.program().inputs[*unheard as usize].name));
         }
         // It is the prompt that asks, whoever drives.
         machine.step(&Snapshot { control: Control::InControl, ..self.now.snapshot.clone() });
@@ -200,6 +199,18 @@ impl Prompt {
     }
 
     /// A machine for a line, which knows what was sensed lately and what has a name.
+    /// Why nothing is known of an input.
+    fn unsensed(&self, name: &str) -> String {
+        let delivered = self.now.vehicle.measurements();
+        if senses::ALWAYS_THERE.contains(&name) || delivered.iter().any(|measurement| measurement.name == name) {
+            return format!("`{name}` has not been sensed yet; let time go by with `run 30 s`");
+        }
+        match measurements::ALL.iter().find(|row| row.name == name).and_then(|row| row.instrument) {
+            Some(clause) => format!("this vehicle does not tell `{name}`: its scenario has no clause `{clause}`"),
+            None => format!("no simulated vehicle tells `{name}`"),
+        }
+    }
+
     fn machine(&self, drive: &Drive, known: &[Named]) -> Result<Machine, String> {
         let mut machine = self.machine_for(Arc::new(drive.program.clone()))?;
         for (slot, named) in drive.known.iter().zip(known) {
