@@ -24,8 +24,8 @@ const REPORTS_MAX: f64 = 1e12;
 
 impl<'t> Checker<'t> {
     /// `reported("source")`: where that was first reported, `reported_at("source")`: when, `has_reported("source")`: whether; with `last_`
-    /// the last of its reports, with `number: 2` the second, and `times_reported("source")` how many there were. Where no `has_reported` shows that there is one, an
-    /// expectation without such a report fails, and says so.
+    /// the last of its reports, with `number: 2` the second, and `times_reported("source")` how many there were. Where no `has_reported`
+    /// shows that there is one, an expectation without such a report fails, and says so.
     pub(super) fn test_call(&mut self, name: &str, args: &[tree::Arg], span: Span) -> Option<Expr> {
         self.test.as_ref()?;
         match name {
@@ -201,7 +201,7 @@ impl<'t> Checker<'t> {
         self.variable(id, span)
     }
 
-    /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in the first report of a name or in the last.
+    /// `reported("leg", "length")`: what stood behind a label, or without one the value itself, in one of the reports of a name.
     fn reported_value(&mut self, what: &str, (label, at): (&str, Span), which: Which, span: Span) -> Expr {
         let sites = self.test.as_ref().and_then(|test| test.reports.get(what).cloned()).unwrap_or_default();
         let types: Vec<&Type> = sites.iter().filter_map(|labelled| labelled.get(label)).collect();
@@ -237,7 +237,8 @@ impl<'t> Checker<'t> {
         self.variable(var, span).unwrapped()
     }
 
-    /// Whether something was reported: then its first report and its last are known, and their places, where each is one.
+    /// Whether something was reported: then its first report and its last are known, or the one of a number, and their places, where each
+    /// is one.
     fn has_reported(&mut self, what: &str, which: Which, all_places: bool, named: Span, span: Span) -> Expr {
         let of = |which| match all_places {
             true => vec![ReportPart::Time(which), ReportPart::Place(which)],

@@ -84,6 +84,7 @@ impl Run {
     /// The numbers of the requirements and of the time limit.
     pub fn take_requirements(&mut self, p: &Program) {
         let mut requires = Vec::new();
+        self.state.echo_fresh = LIMIT_FRESH_S / TICK_S;
         for require in &p.mission.requires {
             let fresh = self.number(p, &require.fresh);
             let patience = require.hold_for.as_ref().map(|code| self.number(p, code));

@@ -198,7 +198,6 @@ impl Prompt {
         Ok((Arc::clone(machine.program()), left.taken(&machine.state().words)))
     }
 
-    /// A machine for a line, which knows what was sensed lately and what has a name.
     /// Why nothing is known of an input.
     fn unsensed(&self, name: &str) -> String {
         let delivered = self.now.vehicle.measurements();
@@ -211,6 +210,7 @@ impl Prompt {
         }
     }
 
+    /// A machine for a line, which knows what was sensed lately and what has a name.
     fn machine(&self, drive: &Drive, known: &[Named]) -> Result<Machine, String> {
         let mut machine = self.machine_for(Arc::new(drive.program.clone()))?;
         for (slot, named) in drive.known.iter().zip(known) {

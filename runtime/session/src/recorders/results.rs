@@ -36,7 +36,7 @@ pub(crate) struct Reports {
     /// All of them, those that are not listed too, by their names.
     named: BTreeMap<String, Named>,
     /// Which of a name are kept beside the first and the last.
-    wanted: BTreeSet<(String, u64)>,
+    wanted: BTreeMap<String, BTreeSet<u64>>,
 }
 
 /// Something that was reported: when, and where, if it was a place.
@@ -74,14 +74,14 @@ impl Reports {
 
     /// Keeps the report of a number of a name, when it comes.
     pub fn want(&mut self, name: &str, number: u64) {
-        self.wanted.insert((name.to_string(), number));
+        self.wanted.entry(name.to_string()).or_default().insert(number);
     }
 
     fn count(&mut self, name: &str, reported: Reported) {
         match self.named.get_mut(name) {
             Some(named) => {
                 named.count += 1;
-                if self.wanted.contains(&(name.to_string(), named.count)) {
+                if self.wanted.get(name).is_some_and(|numbers| numbers.contains(&named.count)) {
                     named.numbered.insert(named.count, reported.clone());
                 }
                 named.last = reported;
