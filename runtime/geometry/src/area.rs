@@ -111,11 +111,14 @@ pub fn farthest_corner(corners: &[Point], heading: Heading, near: Point) -> Poin
 }
 
 /// Metres from a point to the nearest edge of an area, positive inside and negative outside.
-pub fn gap(edges: impl Iterator<Item = Edge> + Clone, p: Point) -> f64 {
-    let away = edges.clone().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+pub fn gap(edges: impl Iterator<Item = Edge>, p: Point) -> f64 {
+    let nothing = (f64::INFINITY, false);
+    let (away, is_inside) = edges.fold(nothing, |(away, is_inside), edge| {
+        (away.min(edge.distance(p)), is_inside != outline::passes_east_of(edge, p))
+    });
     match away {
         _ if away < ON_EDGE_M => 0.0,
-        _ if outline::goes_round(edges, p) => away,
+        _ if is_inside => away,
         _ => -away,
     }
 }

@@ -18,13 +18,10 @@ impl Heading {
     pub const NORTH: Heading = Heading(0.0);
 
     /// The heading of an angle in radians, clockwise from north, wrapped.
+    #[inline]
     pub fn from_radians(angle_rad: f64) -> Self {
         // Most angles lie within the turn already, and stay what they are to the bit: the whole turns below them are none.
-        if (0.0..WITHIN_TURN).contains(&angle_rad) {
-            return Heading(angle_rad + 0.0);
-        }
-        let wrapped = angle_rad - TAU * (angle_rad / TAU).floor();
-        Heading(if (0.0..TAU).contains(&wrapped) { wrapped + 0.0 } else { remainder(angle_rad) })
+        Heading(if (0.0..WITHIN_TURN).contains(&angle_rad) { angle_rad + 0.0 } else { within_turn(angle_rad) })
     }
 
     /// The heading of an angle in degrees, clockwise from north, wrapped.
@@ -65,6 +62,7 @@ impl Heading {
 /// Turned clockwise by an angle in radians.
 impl Add<f64> for Heading {
     type Output = Heading;
+    #[inline]
     fn add(self, angle_rad: f64) -> Heading {
         Heading::from_radians(self.0 + angle_rad)
     }
@@ -73,6 +71,7 @@ impl Add<f64> for Heading {
 /// Turned counter-clockwise by an angle in radians.
 impl Sub<f64> for Heading {
     type Output = Heading;
+    #[inline]
     fn sub(self, angle_rad: f64) -> Heading {
         Heading::from_radians(self.0 - angle_rad)
     }
@@ -81,16 +80,19 @@ impl Sub<f64> for Heading {
 /// The angle in radians, in (-pi, pi], by which the right-hand heading must turn clockwise to become the left-hand one.
 impl Sub for Heading {
     type Output = f64;
+    #[inline]
     fn sub(self, other: Heading) -> f64 {
         wrap_angle(self.0 - other.0)
     }
 }
 
 /// The equivalent angle in (-pi, pi]: the paper's lim(x, -180, 180).
+#[inline]
 pub fn wrap_angle(angle_rad: f64) -> f64 {
-    if angle_rad.abs() < WITHIN_HALF_TURN {
-        return angle_rad;
-    }
+    if angle_rad.abs() < WITHIN_HALF_TURN { angle_rad } else { within_half_turn(angle_rad) }
+}
+
+fn within_half_turn(angle_rad: f64) -> f64 {
     let wrapped = angle_rad - TAU * (angle_rad / TAU + 0.5).floor();
     let wrapped = if wrapped <= -PI { wrapped + TAU } else { wrapped };
     if wrapped > -PI && wrapped <= PI {
@@ -100,7 +102,13 @@ pub fn wrap_angle(angle_rad: f64) -> f64 {
     if turned > PI { turned - TAU } else { turned }
 }
 
-/// What an angle is beyond whole turns, in [0, 2 pi), where so many turns round that a product of them would miss it.
+/// What an angle is beyond whole turns, in [0, 2 pi).
+fn within_turn(angle_rad: f64) -> f64 {
+    let wrapped = angle_rad - TAU * (angle_rad / TAU).floor();
+    if (0.0..TAU).contains(&wrapped) { wrapped + 0.0 } else { remainder(angle_rad) }
+}
+
+/// The same, where so many turns round that a product of them would miss it.
 fn remainder(angle_rad: f64) -> f64 {
     let rest = angle_rad.rem_euclid(TAU);
     // An angle a hair below a full turn rounds up to it; what is no number stays none.

@@ -69,14 +69,11 @@ fn distance(line: Line, p: Point) -> f64 {
     p.distance(line.start + share * side)
 }
 
-/// Whether edges go round a point: to the east of it as many of them lead north as lead south, or not.
-pub fn goes_round(edges: impl Iterator<Item = Edge>, p: Point) -> bool {
-    let is_west_of = |edge: &Edge| {
-        let Line { start, end } = edge.line;
-        let leads_north = end.north > start.north;
-        (start.north > p.north) != (end.north > p.north) && (wedge(end - start, p - start) < 0.0) == leads_north
-    };
-    edges.filter(is_west_of).count() % 2 == 1
+/// Whether an edge is met by who goes east from a point. Of edges that go round it an odd number is.
+pub fn passes_east_of(edge: Edge, p: Point) -> bool {
+    let Line { start, end } = edge.line;
+    let leads_north = end.north > start.north;
+    (start.north > p.north) != (end.north > p.north) && (wedge(end - start, p - start) < 0.0) == leads_north
 }
 
 /// What of the line through a point, along a ray, lies inside edges, piece by piece as the ray goes. Which corners lie beyond the line

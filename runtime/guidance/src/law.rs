@@ -105,11 +105,10 @@ impl LawOverWords {
         LawOverWords {
             begin: |args, start, state| state[..N].copy_from_slice(&L::begin(Args::new(args), start).to_words()),
             step: |state, position, course| {
-                let mut words = [0.0; N];
-                words.copy_from_slice(&state[..N]);
-                let mut law = L::from_words(&words);
+                let words = &mut state.as_chunks_mut::<N>().0[0];
+                let mut law = L::from_words(words);
                 let guidance = law.step(position, course);
-                state[..N].copy_from_slice(&law.to_words());
+                *words = law.to_words();
                 guidance
             },
             words: N,

@@ -64,8 +64,15 @@ impl Run {
         Edge { line, normal: self.vector(area + 1 + AREA_CORNER_WORDS * i + 2) }
     }
 
+    /// The edges in their order. The words of all corners are found once, not anew for each of them.
     pub fn edges_of(&self, area: Slot) -> impl Iterator<Item = Edge> + Clone + '_ {
-        (0..self.corners(area)).map(move |i| self.edge_of(area, i))
+        let (corners, _) = self.slice(area + 1, AREA_CORNER_WORDS * self.corners(area)).as_chunks();
+        (0..corners.len()).map(move |i| {
+            let [north, east, normal_north, normal_east] = corners[i];
+            let [end_north, end_east, ..] = corners[if i + 1 < corners.len() { i + 1 } else { 0 }];
+            let line = Line { start: Point::new(north, east), end: Point::new(end_north, end_east) };
+            Edge { line, normal: Vector::new(normal_north, normal_east) }
+        })
     }
 
     pub fn rows_across(&self, area: Slot, step: f64, along: Option<Heading>, near: Point) -> Option<Rows> {

@@ -135,17 +135,21 @@ impl Run {
         let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         self.state.bottom.way += way;
         self.state.bottom.lone_way += way;
-        let still = Still { depth: self.depth(), elsewhere: 0, way: 0.0, at: self.place(), water: f64::MAX };
+        let now = self.depth();
         let is_elsewhere = self.state.command.is_some_and(|command| match command.vertical {
-            Vertical::Depth(goal) => (goal - still.depth).abs() > HELD_M,
+            Vertical::Depth(goal) => (goal - now).abs() > HELD_M,
             Vertical::Altitude(_) => false,
         });
-        self.state.bottom.still = match self.state.bottom.still.filter(|before| before.depth == still.depth) {
-            Some(before) => {
-                Some(Still { way: before.way + way, elsewhere: before.elsewhere + u64::from(is_elsewhere), ..before })
+        match &mut self.state.bottom.still {
+            Some(still) if still.depth == now => {
+                still.way += way;
+                still.elsewhere += u64::from(is_elsewhere);
             }
-            None => Some(still),
-        };
+            _ => {
+                let at = self.place();
+                self.state.bottom.still = Some(Still { depth: now, elsewhere: 0, way: 0.0, at, water: f64::MAX });
+            }
+        }
         if self.is_told_to_rise() {
             self.state.bottom.in_rise.begin(tick);
         }
@@ -248,7 +252,7 @@ impl Run {
         self.state.bottom.begun.get_or_insert(self.state.tick);
         let known = self.heard_lately();
         let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
-        let floor = self.floor(altitude.0).min(deepest);
+        let floor = self.floor(altitude.0, known).min(deepest);
         let is_lost = known.is_none() && altitude.0 > 0.0;
         self.tell_of_bottom(is_lost, floor);
         // Who is told to be deeper than any command can have led has a depth that is told wrong: with a bottom that is lost, it goes up.
@@ -411,9 +415,9 @@ impl Run {
         heard.water - self.ahead(altitude_min) - SLOPE_MAX * self.way()
     }
 
-    /// How deep the vehicle may go by a least altitude, m.
-    fn floor(&self, altitude_min: f64) -> f64 {
-        let floor = match (self.heard_before(), self.heard_lately()) {
+    /// How deep the vehicle may go by a least altitude, m, and by what is known of the water.
+    fn floor(&self, altitude_min: f64, known: Option<Heard>) -> f64 {
+        let floor = match (self.heard_before(), known) {
             (_, Some(heard)) => heard.water.min(self.still_water()) - self.ahead(altitude_min),
             _ if altitude_min <= 0.0 && !self.asks_for_altitude() => return f64::MAX,
             (Some(heard), None) => {

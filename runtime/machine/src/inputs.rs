@@ -119,12 +119,13 @@ impl Run {
         let tick = self.state.tick as f64;
         let mut is_echo = true;
         for sample in samples {
-            if sample.is_doubted_of(ALTITUDE) {
-                self.doubt_sounding();
-                is_echo = false;
-            }
-            if sample.input_measurement() == POSITION || sample.is_doubted_of(POSITION) {
-                self.state.bottom.doubt_place(sample.is_doubted_of(POSITION));
+            match sample.origin() {
+                ALTITUDE if sample.is_doubted() => {
+                    self.doubt_sounding();
+                    is_echo = false;
+                }
+                POSITION => self.state.bottom.doubt_place(sample.is_doubted()),
+                _ => {}
             }
             let Some(Some(wire)) = wiring.wires.get(sample.input_measurement() as usize) else { continue };
             let width = (wire.width as usize).min(sample.reading.len());

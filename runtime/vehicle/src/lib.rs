@@ -98,9 +98,9 @@ impl Sample {
         self.measurement |= DOUBTED;
     }
 
-    /// Whether it is of a measurement, and no limit is to go by it.
-    pub fn is_doubted_of(&self, measurement: u16) -> bool {
-        self.measurement == WITHHELD | measurement || self.measurement == DOUBTED | measurement
+    /// Whether no limit is to go by it.
+    pub fn is_doubted(&self) -> bool {
+        self.measurement & (WITHHELD | DOUBTED) != 0
     }
 
     /// The measurement that it came on, believed or not.
