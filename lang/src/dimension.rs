@@ -2,12 +2,21 @@
 //! salinity, which is no share of anything. Temperatures are degrees Celsius: a unit is a factor, and knows no other zero.
 
 use albacore_program::Display;
+use albacore_program::number::RATIO_DECIMALS;
 use std::fmt;
 
 /// Powers of length, time, angle, mass, temperature, salinity and what a function calls `Quantity`, in halves: `m/s^0.5` has one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug)]
 pub struct Dimension {
     halves: [i8; BASES.len()],
+    /// Of what has no dimension: it is no share, and shown as a number. Two dimensions are equal whatever they say of it.
+    is_plain: bool,
+}
+
+impl PartialEq for Dimension {
+    fn eq(&self, other: &Self) -> bool {
+        self.halves == other.halves
+    }
 }
 
 /// No power of a dimension is above this, in halves, nor below its negative.
@@ -27,30 +36,36 @@ const BASES: [(&str, &str); 7] = [
 const QUANTITY: usize = BASES.len() - 1;
 
 impl Dimension {
-    /// No dimension: a plain number.
-    pub const NONE: Dimension = Dimension { halves: [0; BASES.len()] };
+    /// No dimension: a share, shown in percent.
+    pub const NONE: Dimension = Dimension::of([0; BASES.len()]);
+    /// The same where it is a plain number, such as a gain.
+    pub const NUMBER: Dimension = Dimension { is_plain: true, ..Dimension::NONE };
     /// Metres.
-    pub const LENGTH: Dimension = Dimension { halves: [2, 0, 0, 0, 0, 0, 0] };
+    pub const LENGTH: Dimension = Dimension::of([2, 0, 0, 0, 0, 0, 0]);
     /// Seconds.
-    pub const TIME: Dimension = Dimension { halves: [0, 2, 0, 0, 0, 0, 0] };
+    pub const TIME: Dimension = Dimension::of([0, 2, 0, 0, 0, 0, 0]);
     /// Radians.
-    pub const ANGLE: Dimension = Dimension { halves: [0, 0, 2, 0, 0, 0, 0] };
+    pub const ANGLE: Dimension = Dimension::of([0, 0, 2, 0, 0, 0, 0]);
     /// Kilograms.
-    pub const MASS: Dimension = Dimension { halves: [0, 0, 0, 2, 0, 0, 0] };
+    pub const MASS: Dimension = Dimension::of([0, 0, 0, 2, 0, 0, 0]);
     /// Degrees Celsius.
-    pub const TEMPERATURE: Dimension = Dimension { halves: [0, 0, 0, 0, 2, 0, 0] };
+    pub const TEMPERATURE: Dimension = Dimension::of([0, 0, 0, 0, 2, 0, 0]);
     /// Practical salinity (PSS-78).
-    pub const SALINITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 2, 0] };
+    pub const SALINITY: Dimension = Dimension::of([0, 0, 0, 0, 0, 2, 0]);
     /// Metres per second.
-    pub const SPEED: Dimension = Dimension { halves: [2, -2, 0, 0, 0, 0, 0] };
+    pub const SPEED: Dimension = Dimension::of([2, -2, 0, 0, 0, 0, 0]);
     /// Radians per second.
-    pub const TURN_RATE: Dimension = Dimension { halves: [0, -2, 2, 0, 0, 0, 0] };
+    pub const TURN_RATE: Dimension = Dimension::of([0, -2, 2, 0, 0, 0, 0]);
     /// Hertz.
-    pub const FREQUENCY: Dimension = Dimension { halves: [0, -2, 0, 0, 0, 0, 0] };
+    pub const FREQUENCY: Dimension = Dimension::of([0, -2, 0, 0, 0, 0, 0]);
 
     /// Any one quantity: `Quantity` in a function, whichever it is given. No unit has this dimension, so that what can be calculated with
     /// it can be with every other.
-    pub const QUANTITY: Dimension = Dimension { halves: [0, 0, 0, 0, 0, 0, 2] };
+    pub const QUANTITY: Dimension = Dimension { is_plain: true, ..Dimension::of([0, 0, 0, 0, 0, 0, 2]) };
+
+    const fn of(halves: [i8; BASES.len()]) -> Dimension {
+        Dimension { halves, is_plain: false }
+    }
 
     /// Whether `Quantity` is in it.
     pub fn is_of_quantity(self) -> bool {
@@ -91,7 +106,7 @@ impl Dimension {
             }
             *to = raised as i8;
         }
-        Some(Dimension { halves })
+        Some(Dimension { halves, ..self })
     }
 
     /// The dimension of a product, unless a power in it is too high.
@@ -100,7 +115,12 @@ impl Dimension {
         for (to, by) in halves.iter_mut().zip(other.halves) {
             *to = to.checked_add(by).filter(|sum| (-HALVES_MAX..=HALVES_MAX).contains(sum))?;
         }
-        Some(Dimension { halves })
+        Some(Dimension { halves, ..self.beside(other) })
+    }
+
+    /// This dimension as that of what is made of one and another of it, such as a sum: of a share and a number, a share.
+    pub fn beside(self, other: Dimension) -> Dimension {
+        Dimension { is_plain: self.is_plain && other.is_plain, ..self }
     }
 
     /// The dimension of a quotient, unless a power in it is too high.
@@ -115,7 +135,8 @@ impl Dimension {
 
     /// The name of the type whose dimension this is, if it has one.
     pub fn type_name(self) -> Option<&'static str> {
-        NAMED.iter().find(|(_, d)| *d == self).map(|(name, _)| *name)
+        let is_its = |d: Dimension| d == self && (d.is_plain == self.is_plain || !self.is_none());
+        NAMED.iter().find(|(_, d)| is_its(*d)).map(|(name, _)| *name)
     }
 
     /// The dimension of a type's name.
@@ -127,6 +148,7 @@ impl Dimension {
     pub fn display(self) -> Display {
         let shown = |unit: &str, scale: f64, decimals: u8| Display { unit: unit.to_string(), scale, decimals };
         match self {
+            d if d == Self::NONE && d.is_plain => shown("", 1.0, RATIO_DECIMALS),
             d if d == Self::NONE => shown("%", 0.01, 1),
             d if d == Self::LENGTH => shown("m", 1.0, 1),
             d if d == Self::TIME => shown("s", 1.0, 1),
@@ -216,7 +238,7 @@ impl fmt::Display for Dimension {
 /// Types that are a dimension and nothing more. The first name of a dimension is the one that messages use.
 pub const NAMED: [(&str, Dimension); 16] = [
     ("Ratio", Dimension::NONE),
-    ("Number", Dimension::NONE),
+    ("Number", Dimension::NUMBER),
     ("Length", Dimension::LENGTH),
     ("Duration", Dimension::TIME),
     ("Angle", Dimension::ANGLE),
@@ -224,12 +246,12 @@ pub const NAMED: [(&str, Dimension); 16] = [
     ("Temperature", Dimension::TEMPERATURE),
     ("Salinity", Dimension::SALINITY),
     ("Speed", Dimension::SPEED),
-    ("Acceleration", Dimension { halves: [2, -4, 0, 0, 0, 0, 0] }),
+    ("Acceleration", Dimension::of([2, -4, 0, 0, 0, 0, 0])),
     ("TurnRate", Dimension::TURN_RATE),
     ("Frequency", Dimension::FREQUENCY),
-    ("Surface", Dimension { halves: [4, 0, 0, 0, 0, 0, 0] }),
-    ("Diffusivity", Dimension { halves: [4, -2, 0, 0, 0, 0, 0] }),
-    ("RandomWalk", Dimension { halves: [2, -1, 0, 0, 0, 0, 0] }),
+    ("Surface", Dimension::of([4, 0, 0, 0, 0, 0, 0])),
+    ("Diffusivity", Dimension::of([4, -2, 0, 0, 0, 0, 0])),
+    ("RandomWalk", Dimension::of([2, -1, 0, 0, 0, 0, 0])),
     ("Quantity", Dimension::QUANTITY),
 ];
 

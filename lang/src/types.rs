@@ -120,7 +120,7 @@ impl Type {
     /// A number that can be calculated with: its dimension.
     pub fn dimension(&self) -> Option<Dimension> {
         match self {
-            Type::Int | Type::Sign => Some(Dimension::NONE),
+            Type::Int | Type::Sign => Some(Dimension::NUMBER),
             Type::Quantity(d) => Some(*d),
             _ => None,
         }

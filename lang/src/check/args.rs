@@ -1,5 +1,6 @@
 //! Arguments: by position or by label, defaults for the rest; and the functions that every script knows.
 
+use super::choice::wider;
 use super::expr::article;
 use super::quantity::{is_of_quantity, is_zero};
 use super::{Checker, Def, ParamInfo, globe};
@@ -22,7 +23,7 @@ pub(super) const ROUND: &str =
 const TIME_LIMITS: [&str; 5] = ["timeout", "time_limit", "time", "duration", "within"];
 
 const LENGTH: Type = Type::Quantity(Dimension::LENGTH);
-pub(super) const NUMBER: Type = Type::Quantity(Dimension::NONE);
+pub(super) const NUMBER: Type = Type::Quantity(Dimension::NUMBER);
 
 /// The functions that every script knows.
 pub(super) const BUILTINS: [&str; 22] = [
@@ -451,8 +452,9 @@ impl<'t> Checker<'t> {
                 ty = value.ty.clone();
                 values.iter_mut().for_each(|zero| zero.ty = ty.clone());
             }
-            if ty == Type::Int && value.ty == NUMBER {
-                ty = NUMBER;
+            if matches!((&ty, &value.ty), (Type::Int | Type::Quantity(_), Type::Quantity(d)) if ty.dimension() == Some(*d))
+            {
+                ty = wider(ty, value.ty.clone());
             }
             let value = self.coerce(value, &ty, &format!("the first argument of `{name}`"));
             values.push(value);

@@ -288,6 +288,7 @@ pub(super) fn wider(x: Type, y: Type) -> Type {
         (x, Type::Optional(y)) => wider(x, *y).optional(),
         (Type::Int | Type::Sign, y @ Type::Quantity(_)) => y,
         (Type::Int | Type::Sign | Type::Quantity(_), y @ (Type::Heading | Type::Depth | Type::Altitude)) => y,
+        (Type::Quantity(x), Type::Quantity(y)) => Type::Quantity(if x == y { x.beside(y) } else { x }),
         (Type::Sign, Type::Int) => Type::Int,
         (Type::List(x, n), Type::List(y, m)) => Type::List(Box::new(wider(*x, *y)), n.max(m)),
         (x, _) => x,

@@ -22,8 +22,12 @@ impl<'t> Checker<'t> {
 
     /// Makes a value of the type that is asked for, where the language allows it, or says why not.
     pub(super) fn coerce(&mut self, value: Expr, ty: &Type, what: &str) -> Expr {
-        if value.ty == *ty || value.ty == Type::Unknown || *ty == Type::Unknown {
+        if value.ty == Type::Unknown || *ty == Type::Unknown {
             return value;
+        }
+        // It is shown as what asks for it shows it: as a share or as a number.
+        if value.ty == *ty {
+            return Expr { ty: ty.clone(), ..value };
         }
         let span = value.span;
         if let Type::Optional(inner) = ty {

@@ -1,12 +1,12 @@
 //! Expressions: names, literals, conversions, conditions.
 
+use super::args::NUMBER;
 use super::choice::wider;
 use super::facts::Place;
 use super::result_range::of_type;
 use super::{Checker, Temporal};
 use crate::code::Code;
 use crate::diagnostic::Diagnostic;
-use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval, TextPart};
 use crate::source::Span;
 use crate::syntax::tree::{self, Unary};
@@ -137,7 +137,7 @@ impl<'t> Checker<'t> {
         }
         match unit {
             None if is_counted => self.make(ExprKind::Number(value), Type::Int, span),
-            None => self.make(ExprKind::Number(value), Type::Quantity(Dimension::NONE), span),
+            None => self.make(ExprKind::Number(value), NUMBER, span),
             Some(word) => match self.unit(self.scope.module, word) {
                 Some(unit) if self.sensible_quantity(value * unit.scale, span) => {
                     self.make(ExprKind::Number(value * unit.scale), Type::Quantity(unit.dimension), span)

@@ -122,7 +122,7 @@ impl<'t> Checker<'t> {
             (Type::Area, "hull") => self.operation(Builtin::Hull, vec![value], Type::Area, span),
             (Type::Area, "edges") => self.only_walked("edges", "write `for edge in area.edges { … }`", span),
             (Type::Edge, "line") => part(self, value, 0, Type::Line),
-            (Type::Edge, "normal") => part(self, value, 4, Type::Vector(Dimension::NONE)),
+            (Type::Edge, "normal") => part(self, value, 4, Type::Vector(Dimension::NUMBER)),
             (Type::Line, "start") => part(self, value, 0, Type::Point),
             (Type::Line, "end") => part(self, value, 2, Type::Point),
             (Type::Line, "heading" | "length") => {

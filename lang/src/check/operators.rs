@@ -1,6 +1,7 @@
 //! Operators between two operands: the whole table of what can be calculated with what.
 
 use super::Checker;
+use super::args::NUMBER;
 use super::expr::article;
 use super::quantity::with_zero;
 use crate::code::Code;
@@ -183,7 +184,7 @@ impl<'t> Checker<'t> {
             (Point, t) | (t, Point) if *t == VECTOR => (Builtin::AddVector, Point),
             (Vector(x), Vector(y)) if x == y => (Builtin::AddVector, Vector(*x)),
             (x, y) => match (x.dimension(), y.dimension()) {
-                (Some(d), Some(e)) if d == e => (Builtin::Add, Quantity(d)),
+                (Some(d), Some(e)) if d == e => (Builtin::Add, Quantity(d.beside(e))),
                 _ => return self.no_such(op, &a, &b, span),
             },
         };
@@ -211,7 +212,7 @@ impl<'t> Checker<'t> {
             (Point, t) if *t == VECTOR => (Builtin::SubVector, Point),
             (Vector(x), Vector(y)) if x == y => (Builtin::SubVector, Vector(*x)),
             (x, y) => match (x.dimension(), y.dimension()) {
-                (Some(d), Some(e)) if d == e => (Builtin::Sub, Quantity(d)),
+                (Some(d), Some(e)) if d == e => (Builtin::Sub, Quantity(d.beside(e))),
                 _ => return self.no_such(op, &a, &b, span),
             },
         };
@@ -270,12 +271,12 @@ impl<'t> Checker<'t> {
             return self.operation(Builtin::Div, vec![a, b], ty, span);
         }
         let one = self.make(ExprKind::Number(1.0), Type::Int, span);
-        let inverse = self.operation(Builtin::Div, vec![one, b], Type::Quantity(Dimension::NONE), span);
+        let inverse = self.operation(Builtin::Div, vec![one, b], NUMBER, span);
         self.operation(Builtin::Scale, vec![a, inverse], ty, span)
     }
 
     fn power(&mut self, op: &Spanned<Binary>, a: Expr, b: Expr, span: Span) -> Expr {
-        let (Some(d), Some(Dimension::NONE)) = (a.ty.dimension(), b.ty.dimension()) else {
+        let Some((d, _)) = a.ty.dimension().zip(b.ty.dimension()).filter(|(_, power)| power.is_none()) else {
             return self.no_such(op, &a, &b, span);
         };
         let Some(power) = b.range.constant() else {

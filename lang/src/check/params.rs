@@ -292,7 +292,7 @@ impl<'t> Checker<'t> {
             )
             .help(match (percent.filter(|_| is_share), &value.ty) {
                 (Some(meant), _) => format!("choose a value {among} {bounds}: `{}`, perhaps?", show(meant)),
-                (None, Type::Quantity(Dimension::ANGLE)) => {
+                (None, Type::Quantity(d)) if *d == Dimension::ANGLE => {
                     format!("choose a value {among} {bounds}; a radian is 57.2958 deg")
                 }
                 _ if value.ty.is_optional() => format!("choose a value {among} {bounds}, or leave it out"),
@@ -326,10 +326,12 @@ impl<'t> Checker<'t> {
     fn number_in_digits(&self, x: f64, ty: &Type, digits: fn(f64) -> f64) -> String {
         let display = match ty.present() {
             // Whole hours and minutes, as they are spoken of.
-            Type::Quantity(Dimension::TIME) if x >= 36_000.0 && x % 3600.0 == 0.0 => {
+            Type::Quantity(d) if *d == Dimension::TIME && x >= 36_000.0 && x % 3600.0 == 0.0 => {
                 return format!("{} h", x / 3600.0);
             }
-            Type::Quantity(Dimension::TIME) if x >= 120.0 && x % 60.0 == 0.0 => return format!("{} min", x / 60.0),
+            Type::Quantity(d) if *d == Dimension::TIME && x >= 120.0 && x % 60.0 == 0.0 => {
+                return format!("{} min", x / 60.0);
+            }
             Type::Quantity(d) if !d.is_none() => d.display(),
             Type::Heading => Dimension::ANGLE.display(),
             Type::Depth | Type::Altitude => Dimension::LENGTH.display(),

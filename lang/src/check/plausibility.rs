@@ -95,8 +95,8 @@ impl<'t> Checker<'t> {
             return false;
         }
         let what = match value.ty {
-            Type::Quantity(Dimension::TIME) => "Duration",
-            Type::Quantity(Dimension::SPEED) => "Speed",
+            Type::Quantity(d) if d == Dimension::TIME => "Duration",
+            Type::Quantity(d) if d == Dimension::SPEED => "Speed",
             _ => return false,
         };
         self.report(

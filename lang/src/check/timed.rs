@@ -1,5 +1,6 @@
 //! Statements that take time: guidance, calls, and the modifiers that bound them; `with`.
 
+use super::args::NUMBER;
 use super::expr::article;
 use super::names::Found;
 use super::{Checker, Def, Driving, ParamInfo, Setting, Temporal};
@@ -371,7 +372,7 @@ fn param_info(param: &Param, place: Span, statement: Span) -> ParamInfo {
         ParamKind::Line => Type::Line,
         ParamKind::Heading => Type::Heading,
         ParamKind::Length => Type::Quantity(Dimension::LENGTH),
-        ParamKind::Number => Type::Quantity(Dimension::NONE),
+        ParamKind::Number => NUMBER,
         ParamKind::Bool => Type::Bool,
     };
     let default = param.default().map(|value| {

@@ -155,7 +155,7 @@ impl<'t> Checker<'t> {
             "Point" => Some(Type::Point),
             "Vector" => Some(Type::Vector(Dimension::LENGTH)),
             "Velocity" => Some(Type::Vector(Dimension::SPEED)),
-            "Direction" => Some(Type::Vector(Dimension::NONE)),
+            "Direction" => Some(Type::Vector(Dimension::NUMBER)),
             "Area" => Some(Type::Area),
             "Edge" => Some(Type::Edge),
             "Line" => Some(Type::Line),

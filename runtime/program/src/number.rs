@@ -14,8 +14,8 @@ const METRE_DECIMALS: u8 = 1;
 const SPEED_DECIMALS: u8 = 2;
 /// Decimals of angles in degrees.
 const DEGREE_DECIMALS: u8 = 1;
-/// Decimals of a ratio that is no share.
-const RATIO_DECIMALS: u8 = 3;
+/// Decimals of a number, and of a ratio that is no share.
+pub const RATIO_DECIMALS: u8 = 3;
 /// Decimals of a number that is printed briefly, and the size below which it is printed with an exponent instead.
 const BRIEF_DECIMALS: u8 = 4;
 const SMALL: f64 = 1e-3;

@@ -38,16 +38,26 @@ pub(super) fn text(before: &str, rest: &str) -> Option<Habit> {
     }
     if first == "report" && rest.starts_with('"') {
         let name = before.split('"').nth(1).unwrap_or("NAME");
-        let after = line_end(&rest[1..]);
-        let value = after.trim_start_matches([',', ' ', '=']);
-        return write(format!("report \"{name}\": {}", if value.is_empty() { "position" } else { value }));
+        return Some(Habit {
+            message: Some("what is reported follows `:`".to_string()),
+            help: format!("write `{}`", report(&format!("\"{name}\""), line_end(&rest[1..]))),
+        });
+    }
+    // `report "end": place: position`, where `place` may be a word that begins no value
+    let is_first_value = first == "report" && before.matches('"').count() == 2 && !before.contains(',');
+    let begins = before.trim_end().ends_with(':');
+    if is_first_value && (rest.starts_with(':') || begins && unlabelled(rest).is_some()) {
+        let name = before.split('"').nth(1).unwrap_or("NAME");
+        return Some(Habit {
+            message: Some("the first value of a report has no label".to_string()),
+            help: format!("write `{}`", report(&format!("\"{name}\""), line_end(rest))),
+        });
     }
     if first == "report"
         && let Some(name) = rest.strip_prefix('(').and_then(quoted)
     {
-        let value = rest[1..].trim_start()[name.len()..].trim_start_matches([',', ' ', ':']);
-        let value = line_end(value).trim_end_matches(')');
-        return write(format!("report {name}: {}", if value.is_empty() { "position" } else { value }));
+        let value = line_end(&rest[1..].trim_start()[name.len()..]);
+        return write(report(name, value.trim_end_matches(')')));
     }
     let is_value = rest.starts_with(|c: char| c.is_alphabetic() || c == '_');
     if first == "log" && is_value && before.trim_end().ends_with('"') && before.matches('"').count() == 2 {
@@ -62,6 +72,19 @@ pub(super) fn text(before: &str, rest: &str) -> Option<Habit> {
         return Some(Habit { message: None, help: format!("one text holds it all: `log \"… {{{value}}}\"`") });
     }
     None
+}
+
+/// A report of a name, which is quoted, with what is written behind it: its first value has no label.
+fn report(name: &str, written: &str) -> String {
+    let written = written.trim_start_matches([',', ' ', '=', ':']);
+    let value = unlabelled(written).unwrap_or(written);
+    format!("report {name}: {}", if value.is_empty() { "position" } else { value })
+}
+
+/// What stands behind a label.
+fn unlabelled(written: &str) -> Option<&str> {
+    let label = Some(word(written)).filter(|label| !label.is_empty())?;
+    written.strip_prefix(label)?.trim_start().strip_prefix(':').map(str::trim_start)
 }
 
 /// The text on one line with which something begins, with its quotes.

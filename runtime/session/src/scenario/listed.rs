@@ -5,8 +5,8 @@ use crate::recorders::recorded::cells;
 use albacore_lang::{ScenarioClause, ScenarioValue};
 use albacore_program::{Shape, number};
 
-/// In what a number without a dimension is recorded.
-const RATIO: &str = "%";
+/// In what a share is recorded. It can be listed as a number, too.
+const SHARE: &str = "%";
 
 /// The samples of an input, each its time in s and its number in SI units.
 pub fn samples(
@@ -20,9 +20,8 @@ pub fn samples(
         let message = format!("there are {} of `times`, and {} of `values`", times.len(), values.len());
         return Err(Wrong::with(message, "list a value for each time").at("values"));
     }
-    if written != wanted {
-        let have =
-            if written == RATIO { "these have no unit".to_string() } else { format!("these are in `{written}`") };
+    if written != wanted && !(wanted == SHARE && written.is_empty()) {
+        let have = if written.is_empty() { "these have no unit".into() } else { format!("these are in `{written}`") };
         let message = format!("`{name}` is in `{wanted}`, and {have}");
         return Err(Wrong::with(message, format!("write them in `{wanted}`")).at("values"));
     }
