@@ -103,7 +103,10 @@ impl<'t> Checker<'t> {
         if let Some(value) = self.variant_of(base, member, span) {
             return value;
         }
-        let value = self.expr(base, None);
+        let value = match self.reported_record(base, &member.node) {
+            Some(record) => record,
+            None => self.expr(base, None),
+        };
         if let Some(part) = self.input_part(&value, member, span) {
             return part;
         }

@@ -82,6 +82,30 @@ impl<'t> Checker<'t> {
         Some(if sites.is_empty() && asks_for_value { self.unknown(span) } else { value })
     }
 
+    /// `reported("wreck").size`: the record that was reported, where a field of it is asked for. Without one it is the place in it.
+    pub(super) fn reported_record(&mut self, question: &tree::Expr, field: &str) -> Option<Expr> {
+        let tree::ExprKind::Call(asked, args) = &question.kind else { return None };
+        let tree::ExprKind::Name(name) = &asked.kind else { return None };
+        let text = args.first().filter(|_| matches!(name.as_str(), "reported" | "last_reported"))?;
+        let what = match &text.value.kind {
+            tree::ExprKind::Text(parts) if args[1..].iter().all(|arg| arg.label.is_some()) => match parts.as_slice() {
+                [tree::TextPart::Literal(what)] => what,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let has_field = |ty: &Type| match ty {
+            Type::Record(id) => self.types.records[*id].fields.iter().any(|(name, _)| name == field),
+            _ => false,
+        };
+        let sites = self.test.as_ref()?.reports.get(what)?;
+        if !sites.iter().filter_map(|labelled| labelled.get("")).all(has_field) {
+            return None;
+        }
+        let (_, which) = self.which(name, args);
+        Some(self.reported_value(what, ("", text.value.span), which, question.span))
+    }
+
     /// Which report of a name a question is about, and its other arguments.
     fn which(&mut self, name: &str, args: &[tree::Arg]) -> (Vec<tree::Arg>, Which) {
         let is_number = |arg: &tree::Arg| arg.label.as_ref().is_some_and(|label| label.node == "number");
