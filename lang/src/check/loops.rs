@@ -58,7 +58,7 @@ impl<'t> Checker<'t> {
                         written.span,
                         format!("`for` walks a list, a map or a range, this is {}", article(&ty)),
                     )
-                    .help("ranges are `0..<n` and `1..n`"),
+                    .help(help_where_nothing_is_walked(&name.node, written, &list)),
                 );
                 Type::Unknown
             }
@@ -260,5 +260,24 @@ impl<'t> Checker<'t> {
                 .help(help),
             );
         }
+    }
+}
+
+/// What is said of a value that `for` does not walk.
+fn help_where_nothing_is_walked(name: &str, written: &tree::Expr, value: &Expr) -> String {
+    let method = match &written.kind {
+        tree::ExprKind::Call(callee, _) => match &callee.kind {
+            tree::ExprKind::Member(_, member) => member.node.as_str(),
+            _ => "",
+        },
+        _ => "",
+    };
+    match (&value.ty, value.range.constant(), method) {
+        (Type::Point, _, "scattered") => {
+            format!("it gives one place for each number: `for i in 1..12 {{ let {name} = op.scattered(i) … }}`")
+        }
+        (Type::Area, ..) => format!("walk its rows, `for {name} in AREA.rows(20 m)`, or its edges, `AREA.edges`"),
+        (Type::Int, Some(n), _) if n >= 1.0 => format!("to do it {n} times write `for {name} in 1..{n}`"),
+        _ => "ranges are `0..<n` and `1..n`".to_string(),
     }
 }
