@@ -1,7 +1,7 @@
 //! Mix-ups in sound scripts, each of a kind that a type, a range or a limit can tell: all are refused, where they
 //! were made, in words that the snapshot shows.
 //!
-//! What no type can tell is left out by construction, and named in `docs/language.md`, section 20.
+//! What no type can tell is left out by construction, and named in `docs/mix-ups.md`.
 
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
