@@ -15,6 +15,11 @@ fn line(p: &Program, event: &Event) -> String {
     match event {
         Event::Control(control) => format!("control {control:?}"),
         Event::Entered(id) => format!("enter {}", name(*id)),
+        Event::Finished(id, words) => {
+            let result = p.activities[*id as usize].result.as_ref();
+            let told = result.map(|result| exactly(&p.texts, &name(*id), &result.shape, words));
+            format!("finish {}", told.unwrap_or_default())
+        }
         Event::Left(id, cause) => format!("leave {} {cause:?}", name(*id)),
         Event::Suspended(id) => format!("suspend {}", name(*id)),
         Event::Resumed(id) => format!("resume {}", name(*id)),

@@ -124,7 +124,7 @@ fn generated() {
         "table in the place of the base's, memory in the place of the base's, signal in the place of the base's",
         "event: begin, event: suspend, event: resume, event: stale, event: fresh, event: wait, event: amend, event: limit",
         "event: leave Done, event: leave Rule, event: leave Until, event: leave TimedOut, event: leave Preempted",
-        "event: leave Aborted, event: end completed, event: end aborted, event: end timed_out",
+        "event: finish, event: leave Aborted, event: end completed, event: end aborted, event: end timed_out",
         "guest sequence, guest table, call of a guest, watch, watch for, watch until, reaction to control, abort on control",
         "override, let end = override, override within, override when offered, override for, override until, override cut",
         "event: control Requesting, event: control InControl, event: control Offered, event: control Suspended",

@@ -323,6 +323,9 @@ impl Run {
         self.set_head(activity, base, header::STATE, header::IDLE);
         self.set_head(activity, base, header::CHILD, 0.0);
         self.set_head(activity, base, header::PC, header::ENDED);
+        if let (Cause::Done, Some(result)) = (cause, &activity.result) {
+            self.events.push(Event::Finished(id, self.slice(base + result.slot, result.shape.words()).to_vec()));
+        }
         self.events.push(Event::Left(id, cause));
         // However it ends (rule 18).
         if activity.kind == ActivityKind::Override {

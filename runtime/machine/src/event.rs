@@ -88,6 +88,8 @@ pub enum Event {
     /// A statement begins: index into the program's statements, and [`albacore_program::ROUND_WORDS`] words of each loop around it.
     /// It is told and decides nothing: no digest holds it.
     Began(u32, Vec<f64>),
+    /// An activity that has a result has come to its own end, and is left next: the words of the result. No digest holds it either.
+    Finished(ActivityId, Vec<f64>),
 }
 
 /// What a payload has answered.

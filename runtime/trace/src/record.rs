@@ -135,6 +135,7 @@ fn said(event: &Event) -> usize {
         Event::Reported(_, words)
         | Event::Remembered(_, words)
         | Event::Began(_, words)
+        | Event::Finished(_, words)
         | Event::Switched { values: words, .. } => size_of_val(words.as_slice()),
         _ => 0,
     }

@@ -149,6 +149,7 @@ impl Wording {
             Event::Control(_)
             | Event::Entered(_)
             | Event::Began(..)
+            | Event::Finished(..)
             | Event::Left(..)
             | Event::Suspended(_)
             | Event::Resumed(_)

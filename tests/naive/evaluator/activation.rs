@@ -2,7 +2,7 @@
 
 use super::body::{Stop, Todo, advance, at_once, rounds_under_way};
 use super::control::{Place, unread};
-use super::expr::{Frame, Scope, block, holds, text, value};
+use super::expr::{Frame, Scope, block, exactly, holds, text, value};
 use super::table::Table;
 use super::timed::{Doing, End, Setpoints, Underway};
 use super::value::Value;
@@ -379,6 +379,11 @@ impl<'p> Activation<'p> {
         }
         self.worn.clear();
         self.is_active = false;
+        if let (Cause::Done, Some(ty)) = (cause, &self.activity.result) {
+            let shape = w.shape(ty);
+            let words = self.result.clone().unwrap_or_else(|| Value::nothing(&shape)).words(&shape);
+            w.say(format!("finish {}", exactly(&w.texts, &self.title(), &shape, &words)));
+        }
         w.say(format!("leave {} {cause:?}", self.title()));
     }
 

@@ -1,5 +1,5 @@
 //! The digest of the full-rate run: of each tick its number, how the link lags, every sample, what the vehicle was told last, every
-//! event but the beginnings of statements, and every answer of its payload, in the form that `Digest::value_of` states. Notices are no part of it, for when they come is no matter of the run.
+//! event but the beginnings of statements and the results of activities, and every answer of its payload, in the form that `Digest::value_of` states. Notices are no part of it, for when they come is no matter of the run.
 
 use super::Recorder;
 use albacore_machine::Event;
@@ -31,8 +31,9 @@ impl Recorder for RunDigest {
         }
         self.command = record.command.or(self.command);
         let TickRecord { tick, snapshot, events, .. } = record;
-        // Beginnings are told, and follow from all else.
-        let events: Vec<&Event> = events.iter().filter(|event| !matches!(event, Event::Began(..))).collect();
+        // Beginnings and results are told, and follow from all else.
+        let follows = |event: &Event| matches!(event, Event::Began(..) | Event::Finished(..));
+        let events: Vec<&Event> = events.iter().filter(|event| !follows(event)).collect();
         let known = self.digest.value_of(&(tick, snapshot.lag, &snapshot.samples, self.command, events));
         debug_assert!(known.is_ok(), "all of it has a length");
         // A run whose payload says nothing is the run that it is without one.
