@@ -11,7 +11,7 @@ mod table;
 use crate::disk::{self, not_written};
 use crate::exit::Exit;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
-use crate::{interruption, message, output};
+use crate::{interruption, message, output, shell};
 use albacore_session::campaign::{Campaign as MissionCampaign, Delivery, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -164,7 +164,12 @@ impl Campaign {
 
     fn sum_up(&self, plan: &Plan, tally: &Tally) {
         interruption::nobody_looks();
-        let told = CampaignSummary::new(plan, self.seeds, &self.out, tally);
+        let run = [
+            vec!["albacore run".to_string(), shell::word(self.script.as_os_str())],
+            self.choice.words(),
+            self.faults.words(),
+        ];
+        let told = CampaignSummary::new(plan, self.seeds, &self.out, tally, &run.concat().join(" "));
         if self.json {
             output::print_json(&told);
         } else {

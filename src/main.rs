@@ -21,6 +21,7 @@ mod repl;
 mod run;
 mod run_folder;
 mod scenario;
+mod shell;
 mod speaker;
 mod synced;
 mod test;

@@ -1,7 +1,7 @@
 //! From the words of a command line to a mission that can run; what stands in the way is said here.
 
 use crate::exit::Exit;
-use crate::message;
+use crate::{message, shell};
 use albacore_session::{FileError, Plan, PlanError, Script, SourceDigest, Wanted};
 use albacore_trace::Digest;
 use serde::{Deserialize, Serialize};
@@ -100,6 +100,15 @@ impl Choice {
         sound(albacore_session::load_for(path, &self.wanted()))
     }
 
+    /// The words of a command that chooses the same: `--in duck_2003 --set lambda=6s`.
+    pub fn words(&self) -> Vec<String> {
+        let mission = self.mission.iter().map(|mission| ("--mission", mission));
+        let scenario = self.scenario.iter().map(|scenario| ("--in", scenario));
+        let set = self.set.iter().map(|set| ("--set", set));
+        let options = mission.chain(scenario).chain(set);
+        options.flat_map(|(option, value)| [option.to_string(), shell::word(value.as_ref())]).collect()
+    }
+
     fn wanted(&self) -> Wanted<'_> {
         Wanted { mission: self.mission.as_deref(), scenario: self.scenario.as_deref(), set: &self.set }
     }
@@ -122,6 +131,11 @@ pub struct Faults {
 }
 
 impl Faults {
+    /// The words of a command that lets the same go wrong.
+    pub fn words(&self) -> Vec<String> {
+        self.texts.iter().flat_map(|text| ["--fault".to_string(), shell::word(text.as_ref())]).collect()
+    }
+
     /// What they let go wrong, or tells what is wrong with them.
     pub fn read(&self) -> Result<albacore_session::Faults, Exit> {
         let script = sound(Ok(albacore_session::load_faults(&self.texts)))?;

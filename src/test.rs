@@ -5,7 +5,7 @@ use crate::exit::Exit;
 use crate::message;
 use crate::output::Lines;
 use crate::plan::Faults;
-use albacore_session::seen::is_unseen;
+use crate::shell;
 use albacore_session::{
     Digest, Failure, PlanError, SOURCE_BYTES_MAX, Script, TestResult, TestRun, Unread, first_difference,
     first_foreign_line, read_file, run_test,
@@ -246,11 +246,11 @@ impl Test {
     /// The command that accepts what this one has found, as a shell takes it: of what was named, and of nothing else.
     fn accepting(&self) -> String {
         let mut words = vec!["albacore test --accept".to_string()];
-        words.extend(self.filter.as_ref().map(|text| format!("--filter={}", quoted(OsStr::new(text)))));
+        words.extend(self.filter.as_ref().map(|text| format!("--filter={}", shell::word(OsStr::new(text)))));
         if self.paths.iter().any(|path| path.as_os_str().as_encoded_bytes().starts_with(b"-")) {
             words.push("--".to_string());
         }
-        words.extend(self.paths.iter().map(|path| quoted(path.as_os_str())));
+        words.extend(self.paths.iter().map(|path| shell::word(path.as_os_str())));
         words.join(" ")
     }
 }
@@ -283,23 +283,6 @@ impl Named<'_> {
 
 /// What to do about a snapshot that holds more than one.
 const THEIRS: &str = "        move it away, or take what you wrote out of it";
-
-/// A word as a shell takes it. One that a terminal would not show, or that is no text, is written out in the way of `$'\x1b'`.
-fn quoted(word: &OsStr) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "_-./@%+,:=".contains(c);
-    match word.to_str() {
-        Some(text) if !text.is_empty() && text.chars().all(is_plain) => text.to_string(),
-        Some(text) if !text.chars().any(is_unseen) => format!("'{}'", text.replace('\'', "'\\''")),
-        _ => {
-            let seen = |b: u8| match b {
-                b'\'' | b'\\' => format!("\\{}", b as char),
-                b' '..=b'~' => (b as char).to_string(),
-                _ => format!("\\x{b:02x}"),
-            };
-            format!("$'{}'", word.as_encoded_bytes().iter().copied().map(seen).collect::<String>())
-        }
-    }
-}
 
 /// The snapshot that is stored, if there is one. One much larger than the trace is none of it.
 fn stored(file: &Path, trace: &str) -> Result<Option<String>, String> {

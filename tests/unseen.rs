@@ -132,7 +132,7 @@ fn a_table_holds_no_formula() {
     std::fs::write(folder.join("north.alb"), SCRIPT).unwrap();
     said(&folder, &["campaign", "north.alb", "--seeds", "1..2", "--out", "table.csv"]);
     let table = std::fs::read_to_string(folder.join("table.csv")).unwrap();
-    assert!(table.contains(",aborted,'=1+1 @SUM(A1),"), "{table}");
+    assert!(table.contains(",aborted,,'=1+1 @SUM(A1),"), "{table}");
     let evil = format!("{EVIL}.alb");
     std::fs::write(folder.join(&evil), SCRIPT).unwrap();
     said(&folder, &["campaign", &evil, "--seeds", "1..2", "--out", "evil.csv"]);

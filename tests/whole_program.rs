@@ -43,13 +43,16 @@ fn a_run_gives_one_json_object_with_the_fixed_fields() {
     assert_eq!(
         names(&result),
         [
+            "behaviors",
             "digest",
+            "holds",
             "mission",
             "origin",
             "outcome",
             "path_length_m",
             "reason",
             "reports",
+            "result",
             "scenario",
             "seed",
             "sim_time_s",
@@ -60,10 +63,26 @@ fn a_run_gives_one_json_object_with_the_fixed_fields() {
     );
     assert_eq!(
         names(&result["reports"][0]),
-        ["east_m", "error_m", "labelled", "latitude_deg", "longitude_deg", "name", "north_m", "t_s", "value"]
+        [
+            "east_m",
+            "error_across_m",
+            "error_along_m",
+            "error_m",
+            "labelled",
+            "latitude_deg",
+            "longitude_deg",
+            "name",
+            "north_m",
+            "t_s",
+            "true_east_m",
+            "true_north_m",
+            "value"
+        ]
     );
     assert_eq!((&result["mission"], &result["outcome"]), (&"box".into(), &"completed".into()));
-    assert_eq!((&result["seed"], &result["switches"]), (&1.into(), &2.into()));
+    assert_eq!((&result["seed"], &result["switches"], &result["holds"]), (&1.into(), &2.into(), &0.into()));
+    assert_eq!(names(&result["behaviors"][0]), ["entered", "name", "path_length_m", "time_s"]);
+    assert_eq!(names(&result["result"]), ["end", "of", "value", "word"]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::seeds::Seeds;
 use crate::output::Lines;
 use albacore_session::Plan;
-use albacore_session::campaign::{INTERVAL, QUANTILE, Quantiles, Share, Tally, Within};
+use albacore_session::campaign::{INTERVAL, Missed, QUANTILE, Quantiles, Share, Tally, Within};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,19 +17,38 @@ pub struct CampaignSummary<'a> {
     table: String,
     runs: usize,
     outcomes: &'a BTreeMap<String, usize>,
+    results: &'a BTreeMap<String, usize>,
     reported: Share,
     within: Option<[Within; 3]>,
     interval: &'static str,
     error_m: Option<Quantiles>,
+    error_along_m: Option<Quantiles>,
+    error_across_m: Option<Quantiles>,
     report_t_s: Option<Quantiles>,
     sim_time_s: Option<Quantiles>,
     path_length_m: Option<Quantiles>,
     quantile: &'static str,
+    missed: Vec<Cause<'a>>,
+}
+
+/// Why runs missed what they were for, and how to look at one of them.
+#[derive(Serialize)]
+struct Cause<'a> {
+    why: &'a str,
+    #[serde(flatten)]
+    missed: &'a Missed,
+    /// Runs the first of them.
+    command: String,
 }
 
 impl<'a> CampaignSummary<'a> {
-    /// The summary of a table.
-    pub fn new(plan: &'a Plan, seeds: Seeds, table: &Path, tally: &'a Tally) -> Self {
+    /// The summary of a table. `run` is the command that runs its mission, but for the seed.
+    pub fn new(plan: &'a Plan, seeds: Seeds, table: &Path, tally: &'a Tally, run: &str) -> Self {
+        let cause = |(why, missed): (&'a str, &'a Missed)| Cause {
+            why,
+            missed,
+            command: missed.seeds.first().map(|seed| format!("{run} --seed {seed}")).unwrap_or_default(),
+        };
         CampaignSummary {
             mission: &plan.program.mission.name,
             scenario: &plan.scenario_name,
@@ -37,14 +56,18 @@ impl<'a> CampaignSummary<'a> {
             table: table.display().to_string(),
             runs: tally.runs(),
             outcomes: tally.outcomes(),
+            results: tally.results(),
             reported: tally.reported(),
             within: (!plan.scenario.environment.sources.is_empty()).then(|| tally.within()),
             interval: INTERVAL,
             error_m: tally.error_m(),
+            error_along_m: tally.error_along_m(),
+            error_across_m: tally.error_across_m(),
             report_t_s: tally.report_t_s(),
             sim_time_s: tally.sim_time_s(),
             path_length_m: tally.path_length_m(),
             quantile: QUANTILE,
+            missed: tally.missed().into_iter().map(cause).collect(),
         }
     }
 
@@ -56,12 +79,19 @@ impl<'a> CampaignSummary<'a> {
         let outcomes: Vec<String> =
             self.outcomes.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
         lines.add(&format!("{} in {}, {seeds}: {}", self.mission, self.scenario, outcomes.join(", ")));
+        if !self.results.is_empty() {
+            let results: Vec<String> =
+                self.results.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
+            lines.add(&format!("  {:<13} {}", "result", results.join(", ")));
+        }
         lines.add(&self.share("reported", &self.reported));
         for within in self.within.iter().flatten() {
             lines.add(&self.share(&format!("within {} m", within.m), &within.share));
         }
         let quantities = [
             ("error", self.error_m, "m"),
+            ("  down-flow", self.error_along_m, "m"),
+            ("  across", self.error_across_m, "m"),
             ("first report", self.report_t_s, "s"),
             ("end", self.sim_time_s, "s"),
             ("over ground", self.path_length_m, "m"),
@@ -72,6 +102,14 @@ impl<'a> CampaignSummary<'a> {
             }
         }
         lines.add(&format!("  intervals: {}; quantiles: {}", self.interval, self.quantile));
+        for Cause { why, missed, command } in &self.missed {
+            let Missed { count, seeds } = missed;
+            let listed: Vec<String> = seeds.iter().map(u64::to_string).collect();
+            let more = if *count > seeds.len() { ", …" } else { "" };
+            let seeds = format!("seed{} {}{more}", if *count == 1 { "" } else { "s" }, listed.join(", "));
+            lines.add(&format!("  missed        {count}, {why}: {seeds}"));
+            lines.add(&format!("                {command}"));
+        }
         lines.add(&format!("  table {}", self.table));
         lines
     }

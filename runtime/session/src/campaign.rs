@@ -9,7 +9,7 @@ mod tally;
 pub use cell::plain;
 pub use columns::{Columns, Row};
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
-pub use tally::{Tally, Within};
+pub use tally::{Missed, Tally, Within};
 
 use crate::plan::{Plan, PlanError};
 use crate::recorders::results::Results;

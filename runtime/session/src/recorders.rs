@@ -1,6 +1,7 @@
 //! What folds over the records of a run. Each recorder keeps one thing; a run, a campaign, a test and a journal that is read back
 //! feed the same ones.
 
+pub(crate) mod account;
 pub(crate) mod digest;
 pub(crate) mod expectations;
 pub(crate) mod journal;

@@ -28,8 +28,14 @@ pub struct Summary {
     pub wall_s: f64,
     /// The way over ground, in metres.
     pub path_length_m: f64,
+    /// What the last strategy, or behavior with a result, that the mission itself called came to.
+    pub result: Option<Finished>,
     /// How many rules fired.
     pub switches: u64,
+    /// How often the mission was held because a required input was too old, or the link too slow.
+    pub holds: u64,
+    /// The behaviors and strategies that were entered, in the order of the program.
+    pub behaviors: Vec<BehaviorSummary>,
     /// What was reported.
     pub reports: Vec<Report>,
     /// How many reports there were beside those that are listed: of very many only the first are.
@@ -84,6 +90,32 @@ impl fmt::Display for Origin {
     }
 }
 
+/// What an activity came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finished {
+    /// Its name.
+    pub of: String,
+    /// `done`, `timed_out` where `within` cut it off, `aborted` with the mission, else `cut`.
+    pub end: &'static str,
+    /// What it finished with, as the value of a report; nothing where it was cut off, has no result, or finished with `none`.
+    pub value: serde_json::Value,
+    /// The same in one word, as tables have it: `none`, `true`, `place`; of what was cut off how it ended.
+    pub word: String,
+}
+
+/// What a run did in a behavior.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BehaviorSummary {
+    /// Its name; behaviors of one name are one.
+    pub name: String,
+    /// How often it was entered.
+    pub entered: u64,
+    /// How long it was active, s: what it called, too.
+    pub time_s: f64,
+    /// The way over ground meanwhile, m.
+    pub path_length_m: f64,
+}
+
 /// Something that was reported.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
@@ -102,6 +134,14 @@ pub struct Report {
     /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
     /// where the bottom has pits or was surveyed.
     pub error_m: Option<f64>,
+    /// That source, or deepest point, in the mission's frame.
+    pub true_north_m: Option<f64>,
+    /// That source, or deepest point, in the mission's frame.
+    pub true_east_m: Option<f64>,
+    /// How far down-flow of it, by the mean flow of the scenario as a run begins; none without one.
+    pub error_along_m: Option<f64>,
+    /// How far to the right of it, looking down-flow.
+    pub error_across_m: Option<f64>,
     /// What was reported: a number, a text, a list, a record, a place, an area, a map; a quantity is `{"value": …, "unit": …}`.
     pub value: serde_json::Value,
     /// What was reported beside it, by its labels.

@@ -2,21 +2,30 @@
 
 use super::cell::plain;
 use super::report_columns::{ReportColumns, parts};
+use crate::recorders::account::behavior_names;
 use crate::summary::Summary;
 use albacore_program::{Program, number};
 use std::collections::BTreeSet;
 
-/// The columns of every table. `report_t_s` and `error_m` are of the first report; `reports` counts all.
-const FIXED: [&str; 11] = [
+/// The columns of every table. What was declared, when and how far off, is of the first report; `reports` counts all.
+const FIXED: [&str; 19] = [
     "scenario",
     "seed",
     "outcome",
+    "result",
     "reason",
     "report_t_s",
     "error_m",
+    "declared_north_m",
+    "declared_east_m",
+    "true_north_m",
+    "true_east_m",
+    "error_along_m",
+    "error_across_m",
     "sim_time_s",
     "path_length_m",
     "switches",
+    "holds",
     "digest",
     "reports",
 ];
@@ -30,6 +39,8 @@ pub(super) const METRE_DECIMALS: u8 = 3;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
     reports: Vec<ReportColumns>,
+    /// The behaviors that have columns, by their names.
+    behaviors: Vec<String>,
     names: Vec<String>,
 }
 
@@ -45,7 +56,7 @@ pub struct Row {
 impl Columns {
     /// The columns for a program's runs. What its reports hold has columns for the first report of each name, and for each further one that is
     /// asked for: how often a loop reports shows only when it runs. So have their times and errors, but for those of the first report of an
-    /// only name, which are among the columns of every table.
+    /// only name, which are among the columns of every table. Last come how long each behavior was active, and the way meanwhile.
     pub fn new(program: &Program, reports_of_each: usize) -> Self {
         let mut reported: Vec<&str> = Vec::new();
         for site in &program.reports {
@@ -66,12 +77,21 @@ impl Columns {
                 reports.push(columns);
             }
         }
-        Columns { reports, names }
+        let behaviors: Vec<String> = behavior_names(program).into_iter().map(str::to_string).collect();
+        for behavior in &behaviors {
+            names.extend(["s", "m"].map(|unit| unused(&mut taken, &format!("{behavior}_{unit}"))));
+        }
+        Columns { reports, behaviors, names }
     }
 
     /// Their names.
     pub fn names(&self) -> &[String] {
         &self.names
+    }
+
+    /// Whether the mission reports anything.
+    pub(super) fn has_reports(&self) -> bool {
+        !self.reports.is_empty()
     }
 
     /// How many of its reports a row tells.
@@ -97,12 +117,20 @@ impl Columns {
             run.scenario.clone(),
             run.seed.to_string(),
             run.outcome.to_string(),
+            run.result.as_ref().map(|result| result.word.clone()).unwrap_or_default(),
             run.reason.clone(),
             seconds(first.map(|r| r.t_s)),
             metres(first.and_then(|r| r.error_m)),
+            metres(first.and_then(|r| r.north_m)),
+            metres(first.and_then(|r| r.east_m)),
+            metres(first.and_then(|r| r.true_north_m)),
+            metres(first.and_then(|r| r.true_east_m)),
+            metres(first.and_then(|r| r.error_along_m)),
+            metres(first.and_then(|r| r.error_across_m)),
             seconds(Some(run.sim_time_s)),
             metres(Some(run.path_length_m)),
             run.switches.to_string(),
+            run.holds.to_string(),
             run.digest.clone(),
             (run.reports.len() as u64 + run.more_reports).to_string(),
         ];
@@ -114,14 +142,19 @@ impl Columns {
             }
             cells.extend(columns.parts.iter().map(|part| report.map(|report| part.cell(report)).unwrap_or_default()));
         }
+        for behavior in &self.behaviors {
+            let spent = run.behaviors.iter().find(|spent| spent.name == *behavior);
+            cells.push(seconds(Some(spent.map_or(0.0, |spent| spent.time_s))));
+            cells.push(metres(Some(spent.map_or(0.0, |spent| spent.path_length_m))));
+        }
         Row { seed: run.seed, cells }
     }
 
     /// The row of a run of which nothing is known but why it failed.
     pub(super) fn failed(&self, scenario: &str, seed: u64, why: &str) -> Row {
-        let mut cells = vec![scenario.to_string(), seed.to_string(), "failed".to_string(), why.to_string()];
-        cells.resize(self.names.len(), String::new());
-        Row { seed, cells }
+        let known = [("scenario", scenario), ("seed", &seed.to_string()), ("outcome", "failed"), ("reason", why)];
+        let cell = |name: &String| known.iter().find(|(known, _)| known == name).map_or("", |(_, cell)| cell);
+        Row { seed, cells: self.names.iter().map(|name| cell(name).to_string()).collect() }
     }
 }
 

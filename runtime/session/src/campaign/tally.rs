@@ -5,15 +5,21 @@ use super::statistics::{Quantiles, Share};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Metres within which a source counts as found; three answers, as one would hide too much.
+/// Metres within which a source counts as found; three answers, as one would hide too much. Farther off than the last is missed.
 const WITHIN_M: [f64; 3] = [15.0, 30.0, 50.0];
+/// Seeds of one cause of misses that are listed.
+const MISSED_MAX: usize = 5;
 
 /// The rows taken in so far.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     runs: usize,
     outcomes: BTreeMap<String, usize>,
+    results: BTreeMap<String, usize>,
+    missed: BTreeMap<String, Missed>,
     error_m: Vec<f64>,
+    error_along_m: Vec<f64>,
+    error_across_m: Vec<f64>,
     report_t_s: Vec<f64>,
     sim_time_s: Vec<f64>,
     path_length_m: Vec<f64>,
@@ -31,6 +37,15 @@ pub struct Within {
     pub share: Share,
 }
 
+/// Runs that missed what they were for, of one cause.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Missed {
+    /// How many.
+    pub count: usize,
+    /// The seeds of the first of them.
+    pub seeds: Vec<u64>,
+}
+
 impl Tally {
     /// Takes in the cells of a row.
     pub fn add(&mut self, columns: &Columns, cells: &[&str]) {
@@ -38,7 +53,17 @@ impl Tally {
         let number = |name| cell(name).parse::<f64>().ok();
         self.runs += 1;
         *self.outcomes.entry(cell("outcome").to_string()).or_default() += 1;
+        if !cell("result").is_empty() {
+            *self.results.entry(cell("result").to_string()).or_default() += 1;
+        }
+        if let Some(why) = missed(columns, cells) {
+            let missed = self.missed.entry(why).or_default();
+            missed.count += 1;
+            missed.seeds.extend(cell("seed").parse::<u64>().ok().filter(|_| missed.count <= MISSED_MAX));
+        }
         self.error_m.extend(number("error_m"));
+        self.error_along_m.extend(number("error_along_m"));
+        self.error_across_m.extend(number("error_across_m"));
         self.report_t_s.extend(number("report_t_s"));
         self.sim_time_s.extend(number("sim_time_s"));
         self.path_length_m.extend(number("path_length_m"));
@@ -59,6 +84,19 @@ impl Tally {
         &self.outcomes
     }
 
+    /// How many had which result.
+    pub fn results(&self) -> &BTreeMap<String, usize> {
+        &self.results
+    }
+
+    /// The runs that missed what they were for, by the cause: that they did not complete, reported nothing, or reported far off. The most
+    /// frequent cause comes first.
+    pub fn missed(&self) -> Vec<(&str, &Missed)> {
+        let mut missed: Vec<(&str, &Missed)> = self.missed.iter().map(|(why, missed)| (why.as_str(), missed)).collect();
+        missed.sort_by_key(|(_, missed)| std::cmp::Reverse(missed.count));
+        missed
+    }
+
     /// The share of runs that reported anything.
     pub fn reported(&self) -> Share {
         Share::of(self.report_t_s.len(), self.runs)
@@ -75,6 +113,16 @@ impl Tally {
     /// Metres from the first report to the nearest source.
     pub fn error_m(&self) -> Option<Quantiles> {
         Quantiles::of(&self.error_m)
+    }
+
+    /// Metres down-flow of what there was to be found; up-flow where negative.
+    pub fn error_along_m(&self) -> Option<Quantiles> {
+        Quantiles::of(&self.error_along_m)
+    }
+
+    /// Metres to the right of it, looking down-flow.
+    pub fn error_across_m(&self) -> Option<Quantiles> {
+        Quantiles::of(&self.error_across_m)
     }
 
     /// Seconds until the first report.
@@ -100,5 +148,20 @@ impl Tally {
     /// How many runs reported more often than their rows can tell, and how often a run reported at most.
     pub fn crowded(&self) -> (usize, usize) {
         (self.crowded, self.reports_max)
+    }
+}
+
+/// Why a run missed what it was for, if it did.
+fn missed(columns: &Columns, cells: &[&str]) -> Option<String> {
+    let cell = |name| Columns::cell(cells, name);
+    let because = |what: String, why: &str| if why.is_empty() { what } else { format!("{what}: {why}") };
+    let outcome = cell("outcome").replace('_', " ");
+    match cell("error_m").parse::<f64>() {
+        _ if outcome != "completed" => Some(because(outcome, cell("reason"))),
+        Ok(error) => WITHIN_M.last().filter(|far| error > **far).map(|far| format!("more than {far} m off")),
+        Err(_) if columns.has_reports() && cell("report_t_s").is_empty() => {
+            Some(because("nothing reported".to_string(), &cell("result").replace('_', " ")))
+        }
+        Err(_) => None,
     }
 }

@@ -1,10 +1,11 @@
 //! The result of a run: how it ended, what it reported and how far that is from what there is to be found, and the way it took.
 
 use super::Recorder;
+use super::account::Account;
 use crate::plan::Plan;
 use crate::reported::{Reader, corners, fields};
 use crate::summary::{Origin, Report, Summary};
-use albacore_geometry::{Area, Point};
+use albacore_geometry::{Area, Point, Vector};
 use albacore_machine::{Event, Outcome};
 use albacore_program::{Shape, number};
 use albacore_trace::{Cells, Ending, Release, Step, TickRecord};
@@ -118,15 +119,15 @@ impl Odometer {
         Odometer { last: start, grain: if start.is_some() { 0.0 } else { LINK_GRAIN }, length: 0.0 }
     }
 
-    /// The vehicle is here now.
-    fn reach(&mut self, here: Point) {
+    /// The vehicle is here now: so far on, m, as it is counted.
+    fn reach(&mut self, here: Point) -> f64 {
         let step = here.distance(self.last.unwrap_or(here));
-        if step >= self.grain {
-            self.length += step;
-        }
+        let counted = if step >= self.grain { step } else { 0.0 };
         if step >= self.grain || self.last.is_none() {
             self.last = Some(here);
         }
+        self.length += counted;
+        counted
     }
 }
 
@@ -153,6 +154,7 @@ pub(crate) struct Results {
     pub ending: Option<Ending>,
     switches: u64,
     odometer: Odometer,
+    account: Account,
 }
 
 impl Results {
@@ -171,6 +173,7 @@ impl Results {
             ending: None,
             switches: 0,
             odometer: Odometer::new(start),
+            account: Account::new(&plan.program),
         }
     }
 
@@ -203,6 +206,9 @@ impl Results {
             wall_s,
             path_length_m: self.odometer.length,
             switches: self.switches,
+            holds: self.account.holds(),
+            result: self.account.finished().cloned(),
+            behaviors: self.account.behaviors(),
             reports: self.reports.listed.clone(),
             more_reports: self.reports.more,
             recorded_rows: None,
@@ -253,6 +259,12 @@ impl Results {
         nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
     }
 
+    /// The direction of the mean flow, as it is when the run begins; none where there is none.
+    fn down_flow(&self) -> Option<Vector> {
+        let mean = self.plan.scenario.environment.flow.mean;
+        (mean.length() > 0.0).then(|| (1.0 / mean.length()) * mean)
+    }
+
     /// Takes down what was reported at a place of the program.
     fn report(&mut self, tick: u64, site: u32, words: &[f64]) {
         let program = Arc::clone(&self.plan.program);
@@ -295,7 +307,14 @@ impl Results {
             east_m: place.map(|p| p.east),
             latitude_deg: globe.map(|g| g.latitude_deg()),
             longitude_deg: globe.map(|g| g.longitude_deg()),
+            true_north_m: sought.map(|(at, _)| at.north),
+            true_east_m: sought.map(|(at, _)| at.east),
             error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
+            error_along_m: place.zip(sought).and_then(|(p, (at, _))| Some((p - at).dot(self.down_flow()?))),
+            error_across_m: place.zip(sought).and_then(|(p, (at, _))| {
+                let down = self.down_flow()?;
+                Some((p - at).dot(Vector::new(-down.east, down.north)))
+            }),
             error_from: sought.map(|(_, what)| what),
             told,
             value: values.remove("").unwrap_or_default(),
@@ -307,9 +326,8 @@ impl Results {
     fn note(&mut self, record: &TickRecord) {
         let here = record.here();
         self.start = self.start.or(here);
-        if let Some(here) = here {
-            self.odometer.reach(here);
-        }
+        let way = here.map_or(0.0, |here| self.odometer.reach(here));
+        self.account.take(record, way);
         for event in &record.events {
             match event {
                 Event::Switched { .. } => self.switches += 1,
@@ -321,6 +339,10 @@ impl Results {
 }
 
 impl Recorder for Results {
+    fn miss(&mut self, _steps: u64, _tick: u64) {
+        self.account.lose();
+    }
+
     fn take(&mut self, record: &TickRecord) {
         if self.area.is_empty() && !record.areas.is_empty() {
             let names = self.plan.program.mission.areas.iter().map(|area| area.name.clone());

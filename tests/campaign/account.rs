@@ -1,0 +1,113 @@
+//! What the table tells of a run beside its outcome: what the strategy finished with, where that was and how far off along and across the
+//! flow, how long each behavior took, how often the mission was held; and the misses with the command that runs one.
+
+use crate::{command, empty, script, table};
+use std::collections::BTreeMap;
+
+/// Goes east for a while, and finds a place, nothing, or no end, as it is told to.
+const SEEKING: &str = r#"
+enum Luck { good, bad, none_yet }
+
+strategy seek(luck: Luck) -> Point? {
+    behavior look { steer east }
+    behavior ponder { hold for 3 s }
+    start look
+    look   -> ponder         on after 10 s
+    ponder -> finish position on done and luck == good
+    ponder -> finish none    on done and luck == bad
+    ponder -> look           on done
+}
+
+mission seeking(luck: Luck = good) in stream within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
+    requires { position fresh 5 s, else hold for 1 min then abort; course, heading fresh 5 s, else abort }
+    recovery within 1 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    let found = seek(luck) within 1 min
+    if found { report "vent": found }
+}
+
+scenario stream {
+    bottom(from: 20 m, to: 20 m)
+    region(rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m))
+    flow(10 cm/s toward 90 deg)
+    plume(growth: 1e-4 m2/s)
+    source("vent", at: point(north: 60 m, east: 5 m))
+    vehicle(kinematic, start: point(north: 0 m, east: 0 m), depth: 3 m, heading: 90 deg)
+}
+"#;
+
+/// The first row of a table, by the names of its columns.
+fn row(text: &str) -> BTreeMap<String, String> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let names = reader.headers().unwrap().clone();
+    let row = reader.records().next().unwrap().unwrap();
+    names.iter().zip(&row).map(|(name, cell)| (name.to_string(), cell.to_string())).collect()
+}
+
+#[test]
+fn a_table_tells_what_was_found_where_and_in_what_time() {
+    let folder = empty("account");
+    let mission = script(&folder, "seeking.alb", SEEKING);
+    let row = row(&table(&mission, "1", &folder.join("t.csv"), &[]));
+    let number = |name: &str| row[name].parse::<f64>().unwrap();
+    assert_eq!((row["outcome"].as_str(), row["result"].as_str(), row["holds"].as_str()), ("completed", "place", "0"));
+    assert_eq!((number("true_north_m"), number("true_east_m")), (60.0, 5.0));
+    assert_eq!(row["declared_east_m"], row["vent_east_m"]);
+    // The flow goes east: what lies east of the source lies down-flow, what lies south of it to the right.
+    let (along, across) = (number("declared_east_m") - 5.0, 60.0 - number("declared_north_m"));
+    assert!(
+        (number("error_along_m") - along).abs() < 2e-3 && (number("error_across_m") - across).abs() < 2e-3,
+        "{row:?}"
+    );
+    assert!((number("error_m") - along.hypot(across)).abs() < 2e-3, "{row:?}");
+    // What a strategy calls counts for both.
+    assert_eq!((number("look_s"), number("ponder_s"), number("seek_s")), (10.0, 3.0, 13.0));
+    assert!(
+        (number("look_m") + number("ponder_m") - number("seek_m")).abs() < 0.5 && number("look_m") > 8.0,
+        "{row:?}"
+    );
+    assert_eq!((row["recovery_s"].as_str(), row["recovery_m"].as_str()), ("0.0", "0.000"));
+}
+
+#[test]
+fn what_was_not_found_is_told_from_what_was_cut_off() {
+    let folder = empty("account_missed");
+    let mission = script(&folder, "seeking.alb", SEEKING);
+    for (luck, result) in [("bad", "none"), ("none_yet", "timed_out")] {
+        let out = folder.join(format!("{luck}.csv"));
+        let row = row(&table(&mission, "1", &out, &["--set", &format!("luck={luck}")]));
+        let told = ["outcome", "result", "report_t_s", "true_north_m"].map(|name| row[name].as_str());
+        assert_eq!(told, ["completed", result, "", ""]);
+    }
+    // One that is held, and one that is aborted after it.
+    let out = folder.join("held.csv");
+    let held = "fault(position, off, from: 5 s, to: 15 s)";
+    let row = row(&table(&mission, "1", &out, &["--fault", held]));
+    assert_eq!((row["holds"].as_str(), row["result"].as_str()), ("1", "place"));
+}
+
+#[test]
+fn misses_are_listed_by_cause_with_a_command_that_runs_one() {
+    let folder = empty("account_causes");
+    let mission = script(&folder, "seeking.alb", SEEKING);
+    let more = ["--set", "luck=bad", "--fault", "fault(leak, from: 10 min)", "--json"];
+    let output = command(&mission, "1..7", &folder.join("t.csv"), &more).output().unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let run = format!("albacore run {mission} --set luck=bad --fault 'fault(leak, from: 10 min)' --seed 1");
+    assert_eq!(
+        summary["missed"],
+        serde_json::json!([{ "why": "nothing reported: none", "count": 7, "seeds": [1, 2, 3, 4, 5], "command": run }])
+    );
+    assert_eq!(summary["results"], serde_json::json!({ "none": 7 }));
+    let text = String::from_utf8(command(&mission, "1..7", &folder.join("u.csv"), &more[..2]).output().unwrap().stdout)
+        .unwrap();
+    assert!(text.contains("  missed        7, nothing reported: none: seeds 1, 2, 3, 4, 5, …\n"), "{text}");
+    assert!(text.contains(&format!("                albacore run {mission} --set luck=bad --seed 1\n")), "{text}");
+    // North of it by 60 m.
+    let text =
+        String::from_utf8(command(&mission, "1..2", &folder.join("v.csv"), &[]).output().unwrap().stdout).unwrap();
+    assert!(text.contains("  missed        2, more than 50 m off: seeds 1, 2\n"), "{text}");
+    assert!(text.contains("  result        2 place\n"), "{text}");
+}
