@@ -17,10 +17,13 @@ use std::path::{Path, PathBuf};
 const MIXUPS: usize = 182;
 
 /// The sound scripts: of the standard library those that hold code, the missions, the gallery, and two written for the purpose.
-const SCRIPTS: [&str; 26] = [
+const SCRIPTS: [&str; 29] = [
     "stdlib/bathymetry.alb",
+    "stdlib/calendar.alb",
     "stdlib/cpt.alb",
+    "stdlib/filters.alb",
     "stdlib/maneuver.alb",
+    "stdlib/maps.alb",
     "stdlib/safety.alb",
     "stdlib/search.alb",
     "missions/box.alb",

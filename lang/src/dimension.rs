@@ -2,7 +2,7 @@
 //! salinity, which is no share of anything. Temperatures are degrees Celsius: a unit is a factor, and knows no other zero.
 
 use albacore_program::Display;
-use albacore_program::number::RATIO_DECIMALS;
+use albacore_program::number::{RATIO_DECIMALS, scaled};
 use std::fmt;
 
 /// Powers of length, time, angle, mass, temperature, salinity and what a function calls `Quantity`, in halves: `m/s^0.5` has one.
@@ -262,6 +262,13 @@ pub struct Unit {
     pub dimension: Dimension,
     /// SI units in one of it.
     pub scale: f64,
+}
+
+impl Unit {
+    /// A number of it in SI units.
+    pub fn si(self, number: f64) -> f64 {
+        scaled(number, self.scale)
+    }
 }
 
 /// A degree, rad.

@@ -139,8 +139,8 @@ impl<'t> Checker<'t> {
             None if is_counted => self.make(ExprKind::Number(value), Type::Int, span),
             None => self.make(ExprKind::Number(value), NUMBER, span),
             Some(word) => match self.unit(self.scope.module, word) {
-                Some(unit) if self.sensible_quantity(value * unit.scale, span) => {
-                    self.make(ExprKind::Number(value * unit.scale), Type::Quantity(unit.dimension), span)
+                Some(unit) if self.sensible_quantity(unit.si(value), span) => {
+                    self.make(ExprKind::Number(unit.si(value)), Type::Quantity(unit.dimension), span)
                 }
                 _ => self.unknown(span),
             },

@@ -278,7 +278,9 @@ impl<'t> Checker<'t> {
             shown if shown == show(range.low) || shown == show(range.high) => self.exact_number(x, &value.ty),
             shown => shown,
         };
-        let percent = value.range.constant().map(|x| x * 0.01).filter(|x| *x >= range.low && *x <= range.high);
+        // Who wrote `4` for `4 %`; what is a share already is none of it.
+        let percent = value.range.constant().filter(|x| *x >= 1.0).map(|x| x * 0.01);
+        let percent = percent.filter(|x| *x >= range.low && *x <= range.high);
         let (bounds, among) = match (range.low > -LARGEST, range.high < LARGEST) {
             (true, false) => (format!("{} or more", show(range.low)), "of"),
             (false, true) => (format!("{} or less", show(range.high)), "of"),

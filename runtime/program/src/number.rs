@@ -44,6 +44,16 @@ pub fn fixed(x: f64, decimals: u8) -> String {
     }
 }
 
+/// Units that are a power of ten in SI.
+const TENS: [(f64, &str); 7] =
+    [(1e-6, "e-6"), (1e-3, "e-3"), (1e-2, "e-2"), (1e-1, "e-1"), (1e2, "e2"), (1e3, "e3"), (1e6, "e6")];
+
+/// So many of a unit that is so much in SI. Where that is a power of ten only the decimal point moves: 57 % is 0.57, to the last bit.
+pub fn scaled(number: f64, scale: f64) -> f64 {
+    let power = TENS.iter().find(|(ten, _)| *ten == scale);
+    power.and_then(|(_, power)| format!("{number}{power}").parse().ok()).unwrap_or(number * scale)
+}
+
 /// A number for a table of data: to nine digits, without zeros at the end, and with an exponent when it is small or large.
 pub fn digits(x: f64) -> String {
     let text = format!("{x:.*e}", DATA_DIGITS - 1);

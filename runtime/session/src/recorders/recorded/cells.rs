@@ -101,7 +101,7 @@ pub fn titles(name: &str, shape: &Shape) -> Vec<String> {
 /// What a number of such a column is in SI units.
 pub fn in_si(number: f64, shape: &Shape) -> f64 {
     match shape {
-        Shape::Quantity(display) | Shape::Vector(display) => number * display.scale,
+        Shape::Quantity(display) | Shape::Vector(display) => number::scaled(number, display.scale),
         Shape::Heading => math::radians(number),
         _ => number,
     }
