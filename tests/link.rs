@@ -273,6 +273,12 @@ fn what_is_asked_for_wrongly_is_told() {
         2,
         "no place on the globe",
     );
+    // Before it has taken over: no vehicle need be there.
+    ends_with(
+        &["run", "tests/link/dated.alb", "--no-out", "--link", "udp:127.0.0.1:47812?dialect=recon"],
+        2,
+        "the mission requires `utc`, which this vehicle does not deliver; it delivers position, course,",
+    );
 }
 
 /// The vehicle's own declaration says what it speaks, to both ends.

@@ -22,6 +22,18 @@ fn units_compose() {
     assert_eq!(unit("m/t", &|_| None), None);
 }
 
+/// A number in a unit that is a power of ten is that number with its point moved, to the last bit.
+#[test]
+fn the_point_moves() {
+    let si = |number: f64, text: &str| unit(text, &|_| None).unwrap().si(number);
+    for percent in 1..=100 {
+        let written: f64 = format!("{}.{:02}", percent / 100, percent % 100).parse().unwrap();
+        assert_eq!((si(percent.into(), "%"), si(percent.into(), "cm")), (written, written), "{percent}");
+    }
+    assert_eq!([si(1.005, "km"), si(94.0, "ppm"), si(12.3, "cm/s"), si(0.3, "ms")], [1005.0, 0.000_094, 0.123, 0.0003]);
+    assert_eq!(si(90.0, "deg"), 90.0 * DEGREE);
+}
+
 #[test]
 fn a_dimension_says_its_name_or_its_units() {
     assert_eq!(Dimension::SPEED.to_string(), "Speed");

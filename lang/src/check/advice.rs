@@ -21,6 +21,8 @@ pub(super) fn unit_help(constant: Option<f64>, unit: &str) -> String {
 /// By what a quantity must be multiplied or divided to become another; a constant may as well be written in another unit.
 pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_constant: bool) -> String {
     let unit = wants.unit();
+    let written =
+        if unit.is_empty() { format!("write {what} without a unit") } else { format!("write {what} in `{unit}`") };
     match (scaling(has, wants), is_constant) {
         _ if has == Dimension::TIME && wants == Dimension::FREQUENCY => {
             "a rate is how often a second: once in 10 s is `0.1 Hz`".into()
@@ -30,9 +32,9 @@ pub(super) fn scaling_help(has: Dimension, wants: Dimension, what: &str, is_cons
         }
         (None, _) if has.is_of_quantity() || wants.is_of_quantity() => ANY_UNIT.into(),
         (Some(Scaling { verb, by }), _) if wants.is_of_quantity() => format!("{verb} {what} by {by}"),
-        (Some(scaling), true) => format!("write {what} in `{unit}`, or {} it by {}", scaling.verb, scaling.by),
+        (Some(scaling), true) => format!("{written}, or {} it by {}", scaling.verb, scaling.by),
         (Some(scaling), false) => format!("{} {what} by {}", scaling.verb, scaling.by),
-        (None, _) => format!("write {what} in `{unit}`"),
+        (None, _) => written,
     }
 }
 
@@ -69,12 +71,14 @@ fn sides_help(a: &Expr, d: Dimension, b: &Expr, e: Dimension) -> String {
     } else if d.is_of_quantity() || e.is_of_quantity() {
         ANY_UNIT.into()
     } else {
+        let is = |d: Dimension| match d.display().unit {
+            unit if unit.is_empty() => "a number".to_string(),
+            unit => format!("in `{unit}`"),
+        };
         format!(
-            "only quantities of one kind go together: {} is in `{}`, {} in `{}`",
-            "the left-hand side",
-            d.display().unit,
-            "the right-hand side",
-            e.display().unit
+            "only quantities of one kind go together: the left-hand side is {}, the right-hand side {}",
+            is(d),
+            is(e)
         )
     }
 }
@@ -320,7 +324,7 @@ impl Checker<'_> {
 
 fn quantity(d: Dimension) -> String {
     let example = match d.type_name() {
-        Some("Ratio") => "a number is asked for, such as `0.5` or `5 %`",
+        Some("Ratio" | "Number") => "a number is asked for, such as `0.5` or `5 %`",
         Some("Length") => "a length is asked for, such as `10 m`",
         Some("Duration") => "a time is asked for, such as `30 s`",
         Some("Angle") => "an angle is asked for, such as `15 deg`",

@@ -277,7 +277,9 @@ fn help_where_nothing_is_walked(name: &str, written: &tree::Expr, value: &Expr) 
             format!("it gives one place for each number: `for i in 1..12 {{ let {name} = op.scattered(i) … }}`")
         }
         (Type::Area, ..) => format!("walk its rows, `for {name} in AREA.rows(20 m)`, or its edges, `AREA.edges`"),
-        (Type::Int, Some(n), _) if n >= 1.0 => format!("to do it {n} times write `for {name} in 1..{n}`"),
+        (Type::Int, Some(n), _) if (1.0..=ROUNDS_MAX).contains(&n) => {
+            format!("to do it {n} times write `for {name} in 1..{n}`")
+        }
         _ => "ranges are `0..<n` and `1..n`".to_string(),
     }
 }

@@ -3,6 +3,8 @@
 mod tables;
 mod texts;
 
+pub(super) use texts::unquoted_report;
+
 use super::habits::{Habit, line_end, quantity, word};
 use albacore_program::{Channel, Ends, Guide};
 

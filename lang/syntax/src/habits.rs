@@ -107,11 +107,9 @@ fn sentence(before: &str, rest: &str) -> Option<Habit> {
         return only("a block stands between `{` and `}`");
     }
     if first == "report" && last == "report" && !next.is_empty() {
-        let value = rest.split(['\n', ';', '}']).next().unwrap_or("").trim();
-        let value = value.split_once(": ").map_or(value, |(_, value)| value);
         return Some(Habit {
             message: Some("a report has a name, which is a text".to_string()),
-            help: format!("write `report \"{next}\": {value}`"),
+            help: format!("write `{}`", super::elsewhere::unquoted_report(&next, line_end(rest))),
         });
     }
     if first == "expect" && last == "never" {

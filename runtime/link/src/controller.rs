@@ -25,7 +25,7 @@ use crate::set_point::SetPoint;
 use crate::status::{Phase, Status};
 use albacore_geometry::TangentFrame;
 use albacore_navigation::Navigator;
-use albacore_vehicle::measurements::{self, VEHICLE_MODE};
+use albacore_vehicle::measurements::{self, MeasurementInfo, VEHICLE_MODE};
 use albacore_vehicle::{Control, Lag, Measurement, Sample, Snapshot};
 use allowance::Allowance;
 use goal::{Goal, Held};
@@ -137,9 +137,12 @@ struct Away {
 impl Controller {
     /// Hears a vehicle that speaks so, in the mission's frame; nothing is sent before [`Controller::take_over`].
     pub fn new(side: Box<dyn ControllerSide>, frame: TangentFrame) -> Self {
+        let can_tell =
+            |row: &MeasurementInfo| measurements::number(row.name).is_some_and(|number| side.can_tell(number));
+        let measurements = measurements::delivered(can_tell);
         Controller {
             side,
-            measurements: measurements::all(),
+            measurements,
             received: Received::new(frame),
             heard: VecDeque::new(),
             gathered: Vec::new(),

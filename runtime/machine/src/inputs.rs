@@ -57,13 +57,15 @@ struct Wire {
 
 /// The wiring of a program, if the vehicle delivers what its mission needs.
 pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<Wiring, MissingInput> {
-    let required = program.mission.requires.iter().map(|require| (require.input, "requires"));
+    // What has a value at first can do without a sample.
+    let required = program.mission.requires.iter().filter(|require| require.at_first.is_none());
+    let required = required.map(|require| (require.input, "requires"));
     let recorded =
         program.recordings.iter().flat_map(|recording| &recording.inputs).map(|(input, _)| (*input, "records"));
     for (input, wanted) in required.chain(recorded) {
         let name = &program.inputs[input as usize].name;
         if !senses::ALWAYS_THERE.contains(&&**name) && !measurements.iter().any(|c| c.name == *name) {
-            let delivered = measurements.iter().map(|c| c.name.clone()).collect();
+            let delivered = measurements.iter().map(|c| c.name.clone()).filter(|name| !name.is_empty()).collect();
             return Err(MissingInput { name: name.clone(), wanted, delivered });
         }
     }

@@ -151,6 +151,11 @@ pub fn info(measurement: u16) -> &'static MeasurementInfo {
     &ALL[usize::from(measurement)]
 }
 
+/// The number of a measurement by its name.
+pub fn number(name: &str) -> Option<u16> {
+    (0..).zip(&ALL).find(|(_, row)| row.name == name).map(|(number, _)| number)
+}
+
 /// The name of a measurement of ours.
 pub const fn name(measurement: u16) -> &'static str {
     ALL[measurement as usize].name

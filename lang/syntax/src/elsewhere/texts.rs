@@ -36,7 +36,7 @@ pub(super) fn text(before: &str, rest: &str) -> Option<Habit> {
                 .map(|habit| Habit { help: format!("{}: `on` in place of `{}`", habit.help, word(rest)), ..habit });
         }
     }
-    if first == "report" && rest.starts_with('"') {
+    if first == "report" && rest.starts_with('"') && before.matches('"').count() == 1 {
         let name = before.split('"').nth(1).unwrap_or("NAME");
         return Some(Habit {
             message: Some("what is reported follows `:`".to_string()),
@@ -74,11 +74,44 @@ pub(super) fn text(before: &str, rest: &str) -> Option<Habit> {
     None
 }
 
-/// A report of a name, which is quoted, with what is written behind it: its first value has no label.
+/// A report whose name is no text: it begins with a word.
+pub(in super::super) fn unquoted_report(first: &str, written: &str) -> String {
+    if let Some((value, name)) = written.rsplit_once(", ").filter(|(_, name)| quoted(name) == Some(name)) {
+        return report(name, value);
+    }
+    let after = written.strip_prefix(first).unwrap_or(written).trim_start();
+    let is_name = after.is_empty() || after.starts_with(|c: char| c == ':' || c.is_alphabetic());
+    match is_name && !super::super::words::is_reserved(first) {
+        true => report(&format!("\"{first}\""), if after.is_empty() { first } else { after }),
+        false => report("\"NAME\"", written),
+    }
+}
+
+/// A report of a name, which is quoted, with what is written behind it, if that is a value: its first value has no label.
 fn report(name: &str, written: &str) -> String {
     let written = written.trim_start_matches([',', ' ', '=', ':']);
-    let value = unlabelled(written).unwrap_or(written);
-    format!("report {name}: {}", if value.is_empty() { "position" } else { value })
+    let value = match unlabelled(written).unwrap_or(written) {
+        "" => "position",
+        value if is_value(value) => value,
+        _ => "VALUE",
+    };
+    format!("report {name}: {value}")
+}
+
+/// Whether a text is one value, or values of which all but the first have labels, as far as can be told without reading it.
+fn is_value(text: &str) -> bool {
+    let names_in_a_row = |text: &str| {
+        let mut words = text.split(' ').filter(|word| !word.is_empty());
+        let is_name = |word: &&str| word.chars().all(|c| c.is_alphanumeric() || "_.".contains(c)) && !is_operator(word);
+        let (firsts, seconds) = (words.clone(), words.by_ref().skip(1));
+        firsts.zip(seconds).any(|(a, b)| is_name(&a) && is_name(&b) && a.starts_with(char::is_alphabetic))
+    };
+    let begins = word(text);
+    !text.contains(['"', '{', '}']) && !super::super::words::is_reserved(begins) && !names_in_a_row(text)
+}
+
+fn is_operator(word: &str) -> bool {
+    ["and", "or", "not", "else", "toward"].contains(&word)
 }
 
 /// What stands behind a label.

@@ -10,6 +10,9 @@ pub trait ControllerSide: Send {
     /// The dialect that it is of.
     fn dialect(&self) -> &'static Dialect;
 
+    /// Whether there is a message that tells a measurement.
+    fn can_tell(&self, measurement: u16) -> bool;
+
     /// Takes in bytes, however they were cut on their way, and gives `received` what they say, in the order in which it came.
     fn hear(&mut self, bytes: &[u8], received: &mut Received);
 

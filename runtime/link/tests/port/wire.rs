@@ -129,6 +129,10 @@ impl ControllerSide for Stopping {
         &STOPPING
     }
 
+    fn can_tell(&self, measurement: u16) -> bool {
+        self.0.can_tell(measurement)
+    }
+
     fn hear(&mut self, bytes: &[u8], received: &mut Received) {
         self.0.hear(bytes, received);
     }

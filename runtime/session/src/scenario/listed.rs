@@ -2,6 +2,7 @@
 
 use super::Wrong;
 use crate::recorders::recorded::cells;
+use albacore_geometry::math::degrees;
 use albacore_lang::{ScenarioClause, ScenarioValue};
 use albacore_program::{Shape, number};
 
@@ -25,7 +26,11 @@ pub fn samples(
         let message = format!("`{name}` is in `{wanted}`, and {have}");
         return Err(Wrong::with(message, format!("write them in `{wanted}`")).at("values"));
     }
-    let told = |shape: &Shape, x: f64| number::brief(&[], shape, &[x]);
+    // A heading beyond a turn is told as it is written.
+    let told = |shape: &Shape, x: f64| match shape {
+        Shape::Heading => format!("{} deg", number::digits(degrees(x))),
+        shape => number::brief(&[], shape, &[x]),
+    };
     if let Some(early) = times.iter().find(|time| **time < 0.0) {
         let message = format!("{early} s is before the run begins");
         return Err(Wrong::with(message, "count times from the beginning of the run, `0 s`").at("times"));

@@ -138,5 +138,5 @@ fn unplayable(name: &str) -> Wrong {
         return Wrong::with(format!("`{name}` is no number of a sensor, and cannot be played"), can);
     }
     let help = nearest(name, known.iter().copied()).map_or(can, |near| format!("did you mean `{near}`?"));
-    Wrong::with(format!("there is no input `{name}`"), help)
+    Wrong::with(format!("no simulated vehicle tells an input `{name}`"), help)
 }

@@ -2,17 +2,21 @@
 
 use super::frame::{Deframer, seal};
 use super::message::{Adcp, FromVehicle, SpeedGoal, State, ToVehicle};
-use super::{DIALECT, grounding};
+use super::{DIALECT, grounding, instruments};
 use crate::controller::{ControllerMessage, ControllerSide, Received};
 use crate::dialect::Dialect;
 use crate::set_point::SetPoint;
 use albacore_geometry::Vector;
 use albacore_geometry::math::atan2;
-use albacore_vehicle::measurements::{ALTITUDE, COURSE, DEPTH, FLOW, HEADING, SPEED, WATER_DEPTH};
+use albacore_vehicle::measurements::{
+    ALTITUDE, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, VEHICLE_MODE, WATER_DEPTH,
+};
 
 /// The dialect does not say how well the vehicle knows its position. Ours: what dead reckoning between acoustic fixes of
 /// 2 m comes to, m an axis.
 const POSITION_SIGMA: f64 = 3.0;
+/// What a state and the Doppler log tell.
+const TOLD: [u16; 9] = [POSITION, COURSE, HEADING, SPEED, DEPTH, ALTITUDE, WATER_DEPTH, FLOW, VEHICLE_MODE];
 /// The course over ground is the heading and a drift angle that `#A` tells; older than this it is not known, ticks.
 const DRIFT_TICKS: u64 = 50;
 /// A vehicle that goes no faster than this by its own word is at rest, m/s: a profiler that tells 0 then is in order, and one
@@ -37,6 +41,10 @@ struct Memory {
 impl ControllerSide for Controller {
     fn dialect(&self) -> &'static Dialect {
         &DIALECT
+    }
+
+    fn can_tell(&self, measurement: u16) -> bool {
+        TOLD.contains(&measurement) || instruments::measure(measurement)
     }
 
     fn hear(&mut self, bytes: &[u8], received: &mut Received) {

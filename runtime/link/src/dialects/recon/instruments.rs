@@ -88,6 +88,11 @@ pub fn has(letter: char) -> bool {
     ALL.iter().any(|instrument| instrument.letter == letter)
 }
 
+/// Whether one of them measures it.
+pub fn measure(measurement: u16) -> bool {
+    ALL.iter().any(|instrument| instrument.measures.contains(&measurement))
+}
+
 /// What an instrument's message says, by its letter.
 pub fn parse(letter: char, fields: &Fields, message: &str) -> Option<Measured> {
     let instrument = ALL.iter().find(|instrument| instrument.letter == letter)?;
