@@ -1,12 +1,14 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
 mod digested_file;
+mod merge;
 mod neighbours;
 mod provenance;
 pub mod seeds;
 mod summary;
 mod sums;
 mod table;
+mod written;
 
 use crate::disk::{self, not_written};
 use crate::exit::Exit;
@@ -16,11 +18,11 @@ use albacore_session::campaign::{Campaign as MissionCampaign, Delivery, Tally};
 use albacore_session::{Plan, Run};
 use indicatif::{ProgressBar, ProgressStyle};
 use provenance::Provenance;
-use seeds::Seeds;
+use seeds::{Seeds, Shard};
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use summary::CampaignSummary;
 use table::{Foreign, Standing, Table, TableError};
 
@@ -31,23 +33,53 @@ const LISTED_MAX: usize = 12;
 /// Threads, at most.
 const THREADS_MAX: usize = 4_096;
 
+/// Run a mission with many seeds, or do something with the tables of such.
+#[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Campaigns {
+    #[command(subcommand)]
+    tables: Option<OfTables>,
+    #[command(flatten)]
+    campaign: Asked,
+}
+
+#[derive(clap::Subcommand)]
+enum OfTables {
+    Merge(merge::Merge),
+}
+
+impl Campaigns {
+    /// Does what is asked for.
+    pub fn run(&self) -> Exit {
+        match (&self.tables, self.campaign.whole()) {
+            (Some(OfTables::Merge(merge)), _) => merge.run(),
+            (None, Some(campaign)) => campaign.run(),
+            // The parser asks for what a campaign needs.
+            (None, None) => Exit::Usage,
+        }
+    }
+}
+
 /// Run a mission with many seeds, on all cores, into a table.
 #[derive(clap::Args)]
-pub struct Campaign {
+struct Asked {
     /// The script.
-    #[arg(value_name = "MISSION.alb")]
-    script: PathBuf,
+    #[arg(value_name = "MISSION.alb", required = true)]
+    script: Option<PathBuf>,
     #[command(flatten)]
     choice: Choice,
     #[command(flatten)]
     faults: Faults,
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
-    seeds: Seeds,
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, required = true)]
+    seeds: Option<Seeds>,
+    /// Run one of so many shards of the seeds, which `albacore campaign merge` puts together: `3/8` is the third of eight.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
     /// The table. What it was made from is kept beside it, in `FILE.csv.origin`, and a
     /// checksum of each line in `FILE.csv.sums`.
-    #[arg(long, value_name = "FILE.csv")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE.csv", required = true)]
+    out: Option<PathBuf>,
     /// Go on with a table that was begun by the same campaign, to its end or to more seeds. Every row is held against its
     /// checksum; the seeds of those that were changed on the disk are run again. This guards against accidents, not against
     /// forgery: whoever writes a row can write its checksum.
@@ -64,12 +96,39 @@ pub struct Campaign {
     json: bool,
 }
 
-impl Campaign {
+impl Asked {
+    /// What a campaign needs, where it is there: who asks for tables alone gives none of it.
+    fn whole(&self) -> Option<Campaign<'_>> {
+        let (script, seeds, out) = (self.script.as_deref()?, self.seeds?, self.out.as_deref()?);
+        Some(Campaign { script, seeds, out, asked: self })
+    }
+}
+
+/// A mission that is run with many seeds, on all cores, into a table.
+struct Campaign<'a> {
+    script: &'a Path,
+    seeds: Seeds,
+    out: &'a Path,
+    asked: &'a Asked,
+}
+
+impl Campaign<'_> {
     /// Runs all seeds that the table does not have.
-    pub fn run(&self) -> Exit {
-        let planned = self.choice.script(&self.script).and_then(|script| {
-            let plan = self.choice.plan(&script, &self.script)?;
-            let faults = self.faults.read()?;
+    fn run(&self) -> Exit {
+        match self.asked.shard.map_or(Some(self.seeds), |shard| shard.of(self.seeds)) {
+            Some(seeds) => self.run_seeds(seeds),
+            None => {
+                let message = format!("`--seeds {}` are too few for so many shards: this one has none", self.seeds);
+                message::error(&message, Some("ask for fewer shards"));
+                Exit::Usage
+            }
+        }
+    }
+
+    fn run_seeds(&self, seeds: Seeds) -> Exit {
+        let planned = self.asked.choice.script(self.script).and_then(|script| {
+            let plan = self.asked.choice.plan(&script, self.script)?;
+            let faults = self.asked.faults.read()?;
             plan.with_faults(&faults).map_err(|error| refused(&error))
         });
         let plan = match planned {
@@ -77,32 +136,32 @@ impl Campaign {
             Err(exit) => return exit,
         };
         // What no seed can run is said before a file is begun.
-        if let Err(error) = Run::new(&plan, self.seeds.first) {
+        if let Err(error) = Run::new(&plan, seeds.first) {
             return refused(&error);
         }
-        match self.carry_out(&plan) {
+        match self.carry_out(&plan, seeds) {
             Ok(exit) => exit,
             Err(trouble) => self.told(trouble),
         }
     }
 
-    fn carry_out(&self, plan: &Plan) -> Result<Exit, TableError> {
-        let campaign = MissionCampaign::new(plan.clone(), self.reports);
+    fn carry_out(&self, plan: &Plan, seeds: Seeds) -> Result<Exit, TableError> {
+        let campaign = MissionCampaign::new(plan.clone(), self.asked.reports);
         let (columns, origin) =
-            (campaign.columns(), Provenance::new(plan, &self.choice.set, &self.faults.texts, self.seeds.first));
+            (campaign.columns(), Provenance::new(plan, &self.asked.choice.set, &self.asked.faults.texts, seeds.first));
         // Who interrupts finds a table that can be gone on with.
         let interrupted = interruption::flag();
-        let mut table = if self.resume {
-            Table::resume(&self.out, columns, &origin, self.seeds)?
+        let mut table = if self.asked.resume {
+            Table::resume(self.out, columns, &origin, seeds)?
         } else {
-            Table::begin(&self.out, columns, &origin)?
+            Table::begin(self.out, columns, &origin)?
         };
         self.warn(&mut table);
-        let bar = self.bar(table.rows());
+        let bar = self.bar(seeds, table.rows());
         let mut trouble = None;
-        let all = campaign.run(table.missing(self.seeds), self.threads, &interrupted, |delivery| {
+        let all = campaign.run(table.missing(seeds), self.asked.threads, &interrupted, |delivery| {
             let done = match delivery {
-                Delivery::Row(row) => table.add(self.seeds, &row),
+                Delivery::Row(row) => table.add(seeds, &row),
                 Delivery::Nothing => table.settle_when_due(),
             };
             if let Err(error) = done {
@@ -122,7 +181,7 @@ impl Campaign {
         match all {
             Ok(true) => {}
             Ok(false) => {
-                let (path, rows, count) = (self.out.display(), table.rows(), self.seeds.count());
+                let (path, rows, count) = (self.out.display(), table.rows(), seeds.count());
                 let help = "the same command with `--resume` goes on from there";
                 message::error(&format!("interrupted: `{path}` has {rows} of {count} runs"), Some(help));
                 return Ok(Exit::NotWell);
@@ -134,7 +193,7 @@ impl Campaign {
         }
         let tally = table.tally(columns, &origin)?;
         self.warn(&mut table);
-        self.sum_up(plan, &tally);
+        self.sum_up(plan, seeds, &tally);
         Ok(Exit::Well)
     }
 
@@ -162,15 +221,15 @@ impl Campaign {
         }
     }
 
-    fn sum_up(&self, plan: &Plan, tally: &Tally) {
+    fn sum_up(&self, plan: &Plan, seeds: Seeds, tally: &Tally) {
         interruption::nobody_looks();
         let run = [
             vec!["albacore run".to_string(), shell::word(self.script.as_os_str())],
-            self.choice.words(),
-            self.faults.words(),
+            self.asked.choice.words(),
+            self.asked.faults.words(),
         ];
-        let told = CampaignSummary::new(plan, self.seeds, &self.out, tally, &run.concat().join(" "));
-        if self.json {
+        let told = CampaignSummary::new(plan, seeds, self.out, tally, &run.concat().join(" "));
+        if self.asked.json {
             output::print_json(&told);
         } else {
             told.human().print();
@@ -223,7 +282,7 @@ impl Campaign {
         if !self.out.is_file() {
             return "choose another file with `--out`".to_string();
         }
-        let (known, then) = match table::standing(&self.out) {
+        let (known, then) = match table::standing(self.out) {
             Standing::Whole(0) | Standing::Unknown => (String::new(), ""),
             Standing::Whole(1) => ("its first row is as it was written; ".to_string(), ""),
             Standing::Whole(rows) => (format!("its first {rows} rows are as they were written; "), ""),
@@ -243,11 +302,11 @@ impl Campaign {
         format!("{known}{again}{then}")
     }
 
-    fn bar(&self, rows: u64) -> ProgressBar {
-        if self.json || !std::io::stderr().is_terminal() {
+    fn bar(&self, seeds: Seeds, rows: u64) -> ProgressBar {
+        if self.asked.json || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
         }
-        let bar = ProgressBar::new(self.seeds.count()).with_position(rows);
+        let bar = ProgressBar::new(seeds.count()).with_position(rows);
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} to go")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);

@@ -59,7 +59,7 @@ enum Verb {
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
     /// code is 0 when every seed was run, whatever the outcomes, and 1 when interrupted.
-    Campaign(campaign::Campaign),
+    Campaign(campaign::Campaigns),
     /// Draw the switching diagram of a strategy.
     Graph(graph::Graph),
     /// Make reference pages of scripts, from their declarations and comments.

@@ -64,8 +64,20 @@ impl Provenance {
         disk::whole(&beside(table, ".origin"), &summed(&output::json(self)?))
     }
 
+    /// The seed of the first row.
+    pub fn first_seed(&self) -> u64 {
+        self.first_seed
+    }
+
     /// What of this is otherwise now, if anything is.
     pub fn difference(&self, now: &Provenance) -> Option<String> {
+        let first = (self.first_seed != now.first_seed)
+            .then(|| format!("was begun with the first seed `{}`, not `{}`", self.first_seed, now.first_seed));
+        self.other_campaign(now).or(first)
+    }
+
+    /// The same whatever the seeds are.
+    pub fn other_campaign(&self, now: &Provenance) -> Option<String> {
         let changed = |what: &str, then: &str, now: &str| Some(format!("was begun with {what}`{then}`, not `{now}`"));
         if self.mission != now.mission {
             return changed("the mission ", &self.mission, &now.mission);
@@ -78,9 +90,6 @@ impl Provenance {
         }
         if self.fault != now.fault {
             return changed("", &options("--fault", &self.fault), &options("--fault", &now.fault));
-        }
-        if self.first_seed != now.first_seed {
-            return changed("the first seed ", &self.first_seed.to_string(), &now.first_seed.to_string());
         }
         if self.albacore != now.albacore {
             return changed("albacore ", &self.albacore, &now.albacore);

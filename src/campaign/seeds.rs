@@ -53,6 +53,36 @@ impl FromStr for Seeds {
     }
 }
 
+/// A part of the seeds: the `i`th of so many that are as long as one another, or longer by one seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    i: u64,
+    of: u64,
+}
+
+impl Shard {
+    /// Its seeds; none where there are more shards than seeds.
+    pub fn of(self, seeds: Seeds) -> Option<Seeds> {
+        let begins = |shard: u64| (u128::from(seeds.count()) * u128::from(shard) / u128::from(self.of)) as u64;
+        let (begin, end) = (begins(self.i - 1), begins(self.i));
+        (begin < end).then(|| Seeds { first: seeds.first + begin, last: seeds.first + end - 1 })
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = "a shard is one of so many, such as `3/8`";
+        let (i, of) = text.split_once('/').ok_or(form)?;
+        let (i, of) = (number(i, form)?, number(of, form)?);
+        match (1..=of).contains(&i) && of <= RUNS_MAX {
+            true => Ok(Shard { i, of }),
+            false => Err(format!("{form}: from `1/{of}` to `{of}/{of}`, and {RUNS_MAX} at most")),
+        }
+    }
+}
+
 fn seed(text: &str) -> Result<u64, String> {
     number(text, "seeds are whole numbers from 0 on: `7`, `1..100`, or `1..<100` without the last")
 }
@@ -79,7 +109,23 @@ impl fmt::Display for Seeds {
 
 #[cfg(test)]
 mod tests {
-    use super::Seeds;
+    use super::{Seeds, Shard};
+
+    #[test]
+    fn shards_are_all_of_the_seeds_each_once() {
+        let all: Seeds = "5..104".parse().unwrap();
+        for of in [1, 2, 3, 7, 99, 100] {
+            let shards = (1..=of).map(|i| format!("{i}/{of}").parse::<Shard>().unwrap().of(all).unwrap());
+            let seeds: Vec<u64> = shards.flat_map(|shard| shard.first..=shard.last).collect();
+            assert_eq!(seeds, (5..=104).collect::<Vec<_>>(), "{of}");
+        }
+        assert_eq!("1/2".parse::<Shard>().unwrap().of("7".parse().unwrap()), None);
+        assert!(
+            ["0/3", "4/3", "1", "1/0", "a/b", "1/2/3", "-1/2", "1/2000000"]
+                .iter()
+                .all(|text| text.parse::<Shard>().is_err())
+        );
+    }
 
     fn read(text: &str) -> Option<(u64, u64)> {
         text.parse::<Seeds>().ok().map(|seeds| (seeds.first, seeds.last))

@@ -6,6 +6,7 @@
 mod account;
 mod changed;
 mod deeds;
+mod merge;
 #[path = "../shell/mod.rs"]
 mod shell;
 mod sources;
