@@ -1,5 +1,6 @@
 //! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
 
+mod compare;
 mod digested_file;
 mod merge;
 mod neighbours;
@@ -45,6 +46,7 @@ pub struct Campaigns {
 
 #[derive(clap::Subcommand)]
 enum OfTables {
+    Compare(compare::Compare),
     Merge(merge::Merge),
 }
 
@@ -52,6 +54,7 @@ impl Campaigns {
     /// Does what is asked for.
     pub fn run(&self) -> Exit {
         match (&self.tables, self.campaign.whole()) {
+            (Some(OfTables::Compare(compare)), _) => compare.run(),
             (Some(OfTables::Merge(merge)), _) => merge.run(),
             (None, Some(campaign)) => campaign.run(),
             // The parser asks for what a campaign needs.

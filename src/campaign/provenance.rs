@@ -69,6 +69,34 @@ impl Provenance {
         self.first_seed
     }
 
+    /// The mission, the scenario, and what was changed of them, in the words of a command: `duck_single in duck_2003 --set lambda=6s`.
+    pub fn told(&self) -> String {
+        let set = self.set.iter().map(|text| format!(" --set {text}"));
+        let fault = self.fault.iter().map(|text| format!(" --fault {text}"));
+        format!("{} in {}{}", self.mission, self.scenario, set.chain(fault).collect::<String>())
+    }
+
+    /// Why runs of one seed are not of one world, if they are not.
+    pub fn other_world(&self, other: &Provenance) -> Option<String> {
+        if self.scenario != other.scenario {
+            return Some(format!("one is of the scenario `{}`, the other of `{}`", self.scenario, other.scenario));
+        }
+        (self.albacore != other.albacore)
+            .then(|| format!("one is of albacore {}, the other of {}", self.albacore, other.albacore))
+    }
+
+    /// Whether the scripts that it is of are others, word for word.
+    pub fn scripts_differ(&self, other: &Provenance) -> bool {
+        let digests = |of: &Provenance| of.sources.iter().map(|source| source.digest.clone()).collect::<Vec<_>>();
+        digests(self) != digests(other)
+    }
+
+    /// Whether the scenario stands in scripts that differ, so that it may be another of the same name.
+    pub fn may_be_other_world(&self, other: &Provenance) -> bool {
+        let digest = |of: &Provenance| of.scenario_script.as_ref().map(|script| script.digest.clone());
+        digest(self) != digest(other)
+    }
+
     /// What of this is otherwise now, if anything is.
     pub fn difference(&self, now: &Provenance) -> Option<String> {
         let first = (self.first_seed != now.first_seed)

@@ -5,7 +5,7 @@ use crate::{command, empty, script, table};
 use std::collections::BTreeMap;
 
 /// Goes east for a while, and finds a place, nothing, or no end, as it is told to.
-const SEEKING: &str = r#"
+pub const SEEKING: &str = r#"
 enum Luck { good, bad, none_yet }
 
 strategy seek(luck: Luck) -> Point? {

@@ -5,6 +5,7 @@
 
 mod account;
 mod changed;
+mod compare;
 mod deeds;
 mod merge;
 #[path = "../shell/mod.rs"]

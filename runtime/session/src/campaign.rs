@@ -2,14 +2,16 @@
 
 mod cell;
 mod columns;
+mod paired;
 mod report_columns;
 mod statistics;
 mod tally;
 
 pub use cell::plain;
 pub use columns::{Columns, Row};
+pub use paired::{MEDIAN_INTERVAL, PairedDifference, PairedShare, SHARE_INTERVAL, TEST};
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
-pub use tally::{Missed, Tally, Within};
+pub use tally::{Missed, Tally, WITHIN_M, Within};
 
 use crate::plan::{Plan, PlanError};
 use crate::recorders::results::Results;

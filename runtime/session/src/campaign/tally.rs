@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Metres within which a source counts as found; three answers, as one would hide too much. Farther off than the last is missed.
-const WITHIN_M: [f64; 3] = [15.0, 30.0, 50.0];
+pub const WITHIN_M: [f64; 3] = [15.0, 30.0, 50.0];
 /// Seeds of one cause of misses that are listed.
 const MISSED_MAX: usize = 5;
 

@@ -1,0 +1,223 @@
+//! `albacore campaign compare`: two tables of one world, seed by seed.
+
+use super::written::{Unusable, WrittenTable};
+use crate::exit::Exit;
+use crate::output::Lines;
+use crate::{message, output};
+use albacore_session::campaign::{MEDIAN_INTERVAL, PairedDifference, PairedShare, SHARE_INTERVAL, TEST, WITHIN_M};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Compare two tables, seed by seed.
+///
+/// The tables are of one scenario, and of missions, parameters or faults that differ: the same seed is the same water in both. Shares are
+/// compared by McNemar's test and Newcombe's interval for paired shares; errors, times and ways by the median of their
+/// differences. Tables of different scenarios or versions, or without a seed in common, are refused.
+#[derive(clap::Args)]
+pub struct Compare {
+    /// One table.
+    #[arg(value_name = "A.csv")]
+    a: PathBuf,
+    /// The other: differences are what it has more.
+    #[arg(value_name = "B.csv")]
+    b: PathBuf,
+    /// Print the comparison as one JSON object on standard output.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is compared as a quantity: its column, its name and its unit.
+const QUANTITIES: [(&str, &str, &str); 5] = [
+    ("error_m", "error", "m"),
+    ("report_t_s", "first report", "s"),
+    ("sim_time_s", "end", "s"),
+    ("path_length_m", "over ground", "m"),
+    ("switches", "switches", ""),
+];
+
+/// A smaller probability is told as this.
+const P_MIN: f64 = 0.001;
+
+/// The columns of what is compared as a share.
+const SHARES: [&str; 3] = ["outcome", "report_t_s", "error_m"];
+
+/// What two tables come to together.
+#[derive(Serialize)]
+struct Comparison {
+    a: Side,
+    b: Side,
+    /// Seeds that both have.
+    pairs: usize,
+    /// Whether they are of scripts that differ.
+    scripts_differ: bool,
+    shares: Vec<ShareOf>,
+    differences: Vec<DifferenceOf>,
+    share_interval: &'static str,
+    median_interval: &'static str,
+    test: &'static str,
+}
+
+#[derive(Serialize)]
+struct Side {
+    table: String,
+    /// Mission, scenario, and what was changed of them.
+    of: String,
+    /// Seeds that the other has not.
+    left_out: usize,
+}
+
+#[derive(Serialize)]
+struct ShareOf {
+    what: String,
+    #[serde(flatten)]
+    share: PairedShare,
+}
+
+#[derive(Serialize)]
+struct DifferenceOf {
+    what: &'static str,
+    unit: &'static str,
+    #[serde(flatten)]
+    difference: PairedDifference,
+}
+
+/// The cells of a run that are compared, by the names of their columns.
+type Cells = BTreeMap<String, String>;
+
+impl Compare {
+    /// Prints the comparison, or says why there is none.
+    pub fn run(&self) -> Exit {
+        let read = || Ok((WrittenTable::read(&self.a)?, WrittenTable::read(&self.b)?));
+        match read().and_then(|(a, b)| Comparison::of(&a, &b)) {
+            Ok(comparison) if self.json => output::print_json(&comparison),
+            Ok(comparison) => comparison.human().print(),
+            Err((message, help)) => {
+                message::error(&message, Some(&help));
+                return Exit::Usage;
+            }
+        }
+        Exit::Well
+    }
+}
+
+impl Comparison {
+    fn of(a: &WrittenTable, b: &WrittenTable) -> Result<Self, Unusable> {
+        if let Some(why) = a.origin.other_world(&b.origin) {
+            let help = "only in one world the same seed is the same water: run both missions in it";
+            return Err((format!("the tables cannot be compared: {why}"), help.to_string()));
+        }
+        if a.origin.may_be_other_world(&b.origin) {
+            let what = "the scenario stands in scripts that differ";
+            message::warning(
+                what,
+                "where the scenario itself was changed, the same seed is other water: nothing is paired then",
+            );
+        }
+        let (first, second) = (cells(a)?, cells(b)?);
+        let pairs: Vec<(&Cells, &Cells)> = first.iter().filter_map(|(seed, a)| Some((a, second.get(seed)?))).collect();
+        if pairs.is_empty() {
+            let seeds = |table: &WrittenTable| format!("{}..{}", table.first(), table.last());
+            let message = format!("the tables have no seed in common: {}, and {}", seeds(a), seeds(b));
+            return Err((message, "run both with the same `--seeds`".to_string()));
+        }
+        let side = |table: &WrittenTable| Side {
+            table: table.path.display().to_string(),
+            of: table.origin.told(),
+            left_out: table.rows.len() - pairs.len(),
+        };
+        let difference = |&(column, what, unit): &(&str, &'static str, &'static str)| {
+            let number = |run: &Cells| run.get(column).and_then(|cell| cell.parse::<f64>().ok());
+            let numbers: Vec<_> = pairs.iter().filter_map(|(a, b)| number(a).zip(number(b))).collect();
+            PairedDifference::of(&numbers).map(|difference| DifferenceOf { what, unit, difference })
+        };
+        Ok(Comparison {
+            a: side(a),
+            b: side(b),
+            pairs: pairs.len(),
+            scripts_differ: a.origin.scripts_differ(&b.origin),
+            shares: shares(&pairs),
+            differences: QUANTITIES.iter().filter_map(difference).collect(),
+            share_interval: SHARE_INTERVAL,
+            median_interval: MEDIAN_INTERVAL,
+            test: TEST,
+        })
+    }
+
+    fn human(&self) -> Lines {
+        let mut lines = Lines::default();
+        for (name, Side { table, of, left_out }) in [("A", &self.a), ("B", &self.b)] {
+            let more = match left_out {
+                0 => String::new(),
+                1 => ", one seed of which the other has not".to_string(),
+                seeds => format!(", {seeds} seeds of which the other has not"),
+            };
+            lines.add(&format!("{name}  {of}  ({table}{more})"));
+        }
+        let scripts = if self.scripts_differ { "; the scripts differ" } else { "" };
+        lines.add(&format!("{} seeds in both{scripts}", self.pairs));
+        lines.add("                      A         B    B - A                      A alone  B alone  p");
+        for ShareOf { what, share } in &self.shares {
+            let percent = |x: f64| format!("{:.1} %", 100.0 * x);
+            let signed = |x: f64| format!("{:+.1}", 100.0 * x + 0.0);
+            let difference =
+                format!("{} % ({} to {})", signed(share.difference), signed(share.low), signed(share.high));
+            let PairedShare { a, b, only_a, only_b, p, .. } = share;
+            let (a, b) = (percent(a.share), percent(b.share));
+            let p = if *p < P_MIN { format!("< {P_MIN}") } else { format!("{p:.3}") };
+            lines.add(&format!("  {what:<13} {a:>8}  {b:>8}    {difference:<25} {only_a:>8} {only_b:>8}  {p}"));
+        }
+        for DifferenceOf { what, unit, difference } in &self.differences {
+            let PairedDifference { pairs, a, b, difference, interval } = difference;
+            let interval = interval.map(|(low, high)| format!(" ({low:+.1} to {high:+.1})")).unwrap_or_default();
+            let difference = format!("{difference:+.1}{interval}");
+            let pairs = if *pairs == self.pairs { String::new() } else { format!("of {pairs} pairs") };
+            lines.add(format!("  {what:<13} {a:>8.1}  {b:>8.1}  {unit:<1} {difference:<25} {pairs}").trim_end());
+        }
+        lines.add(&format!("  shares: {}; p: {}", self.share_interval, self.test));
+        lines.add(&format!("  errors, times and ways are medians; intervals: {}", self.median_interval));
+        lines
+    }
+}
+
+/// What runs achieve, as shares of the pairs: where none reports anything there is nothing to be said of reports.
+fn shares(pairs: &[(&Cells, &Cells)]) -> Vec<ShareOf> {
+    let cell = |run: &Cells, name: &str| run.get(name).cloned().unwrap_or_default();
+    let share = |what: String, holds: &dyn Fn(&Cells) -> bool| {
+        let pairs: Vec<(bool, bool)> = pairs.iter().map(|(a, b)| (holds(a), holds(b))).collect();
+        ShareOf { what, share: PairedShare::of(&pairs) }
+    };
+    let mut shares = vec![share("completed".to_string(), &|run| cell(run, "outcome") == "completed")];
+    let any = |name: &str| pairs.iter().any(|(a, b)| !cell(a, name).is_empty() || !cell(b, name).is_empty());
+    if any("report_t_s") {
+        shares.push(share("reported".to_string(), &|run| !cell(run, "report_t_s").is_empty()));
+    }
+    if any("error_m") {
+        let near = |run: &Cells, m: f64| cell(run, "error_m").parse::<f64>().is_ok_and(|error| error <= m);
+        shares.extend(WITHIN_M.map(|m| share(format!("within {m} m"), &|run| near(run, m))));
+    }
+    shares
+}
+
+/// What is compared of all runs of a table, by their seeds.
+fn cells(table: &WrittenTable) -> Result<BTreeMap<u64, Cells>, Unusable> {
+    let unread = |error: csv::Error| {
+        (
+            format!("`{}` cannot be read: {error}", table.path.display()),
+            "name a table of `albacore campaign`".to_string(),
+        )
+    };
+    let text: Vec<u8> = table.rows.iter().fold(table.head.clone(), |mut text, (_, line)| {
+        text.extend_from_slice(line);
+        text
+    });
+    let mut reader = csv::Reader::from_reader(text.as_slice());
+    let names = reader.headers().map_err(unread)?.clone();
+    let is_compared = |name: &str| SHARES.contains(&name) || QUANTITIES.iter().any(|(column, ..)| *column == name);
+    let row = |(seed, row): (u64, Result<csv::StringRecord, csv::Error>)| {
+        let row = row.map_err(unread)?;
+        let cells = names.iter().zip(&row).filter(|(name, _)| is_compared(name));
+        Ok((seed, cells.map(|(name, cell)| (name.to_string(), cell.to_string())).collect()))
+    };
+    table.rows.iter().map(|(seed, _)| *seed).zip(reader.records()).map(row).collect()
+}
