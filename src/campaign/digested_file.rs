@@ -5,8 +5,11 @@ use crate::disk;
 use crate::synced::Synced;
 use albacore_session::Digest;
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
+
+/// A file is read in pieces of so many bytes, and what its last line has more: a table of a million rows need not be held at once.
+const PIECE: usize = 1 << 20;
 
 /// A file with a digest of all that was written to it.
 pub struct DigestedFile {
@@ -64,21 +67,32 @@ impl DigestedFile {
         self.file.sync_when_due().map_err(|error| TableError::Disk(self.path.clone(), error))
     }
 
-    /// What it holds: what was written.
-    pub fn text(&mut self) -> Result<Vec<u8>, TableError> {
+    /// Gives what it holds piece by piece, whole lines each, and tells at the end whether that is what was written.
+    pub fn read(&mut self, mut take: impl FnMut(&[u8]) -> Result<(), TableError>) -> Result<(), TableError> {
+        let disk = |error| TableError::Disk(self.path.clone(), error);
         if !self.is_as_left()? {
             return Err(TableError::Changed(self.path.clone()));
         }
-        let read = || -> io::Result<Option<Vec<u8>>> {
-            let is_there = disk::is_at(self.file(), &self.path)?;
-            is_there.then(|| std::fs::read(&self.path)).transpose()
-        };
-        match read() {
-            Ok(Some(text)) if digest(Digest::new(), &text) == self.digest => Ok(text),
-            Ok(Some(_)) => Err(TableError::Changed(self.path.clone())),
-            Ok(None) => Err(TableError::Gone(self.path.clone())),
-            Err(error) => Err(TableError::Disk(self.path.clone(), error)),
+        if !disk::is_at(self.file(), &self.path).map_err(disk)? {
+            return Err(TableError::Gone(self.path.clone()));
         }
+        let mut reader = BufReader::new(File::open(&self.path).map_err(disk)?);
+        let (mut piece, mut found) = (Vec::new(), Digest::new());
+        loop {
+            piece.clear();
+            while piece.len() < PIECE && reader.read_until(b'\n', &mut piece).map_err(disk)? > 0 {}
+            if piece.is_empty() {
+                break;
+            }
+            found = digest(found, &piece);
+            take(&piece)?;
+        }
+        if found == self.digest { Ok(()) } else { Err(TableError::Changed(self.path.clone())) }
+    }
+
+    /// An error if it does not hold what was written.
+    pub fn is_whole(&mut self) -> Result<(), TableError> {
+        self.read(|_| Ok(()))
     }
 
     fn is_as_left(&self) -> Result<bool, TableError> {

@@ -262,7 +262,7 @@ impl Table {
         let Some(known) = lines.iter().map(Option::as_deref).collect::<Option<Vec<&[u8]>>>() else { return Ok(()) };
         let written = known.concat();
         // Others may have written while rows were run.
-        file.text()?;
+        file.is_whole()?;
         let path = beside(&self.path, ".sums");
         match sums::read(&self.path) {
             Ok(sums) if sums == found.sums => {}
@@ -381,18 +381,21 @@ impl Table {
             Ok(theirs) => self.origin_changed(&theirs, origin)?,
             Err(unread) => return Err(silent(&self.path, ".origin", MADE_FROM, unread)),
         }
-        let text = match &mut self.state {
+        let (path, mut tally, mut is_headed) = (&self.path, Tally::default(), false);
+        let add = |piece: &[u8]| {
+            let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(piece);
+            for row in reader.records().skip(usize::from(!std::mem::replace(&mut is_headed, true))) {
+                let row = row.map_err(|error| TableError::Disk(path.clone(), error.into()))?;
+                tally.add(columns, &row.iter().collect::<Vec<_>>());
+            }
+            Ok(())
+        };
+        match &mut self.state {
             State::Adding { file, sums, .. } => {
                 sums.is_whole()?;
-                file.text()?
+                file.read(add)?;
             }
-            State::Mending { file, .. } => file.text()?,
-        };
-        let mut reader = csv::Reader::from_reader(&text[..]);
-        let mut tally = Tally::default();
-        for row in reader.records() {
-            let row = row.map_err(|error| TableError::Disk(self.path.clone(), error.into()))?;
-            tally.add(columns, &row.iter().collect::<Vec<_>>());
+            State::Mending { file, .. } => file.read(add)?,
         }
         Ok(tally)
     }
