@@ -4,7 +4,7 @@ use crate::compatibility::{self, Held};
 use crate::faults::Faults;
 use crate::scenario;
 use crate::wanted::Wanted;
-use albacore_geometry::{Geodetic, TangentFrame};
+use albacore_geometry::{Area, Geodetic, Point, TangentFrame};
 use albacore_lang::Script;
 use albacore_lang::diagnostic::{Diagnostic, Severity};
 use albacore_lang::source::{Source, Sources};
@@ -16,7 +16,7 @@ use albacore_sim::{Bottom, Fault, Ground, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A mission and the world it runs in, ready to run with any seed.
 #[derive(Clone, Debug)]
@@ -37,6 +37,8 @@ pub struct Plan {
     places: Vec<Geodetic>,
     /// The survey of the bottom that the mission's scenario names: what is known of the water's depth beforehand.
     survey: Option<Arc<Bottom>>,
+    /// The area that was asked for first, and its deepest point: the runs of a campaign ask for the same.
+    deepest: Arc<OnceLock<(Area, Point)>>,
 }
 
 /// Why a script cannot be run as asked.
@@ -56,6 +58,13 @@ impl PlanError {
 }
 
 impl Plan {
+    /// The deepest point of an area in the world, which takes long to find in a survey.
+    pub(crate) fn deepest(&self, area: Area) -> Point {
+        let bottom = &self.scenario.environment.bottom;
+        let (known, deepest) = self.deepest.get_or_init(|| (area.clone(), bottom.deepest(&area)));
+        if *known == area { *deepest } else { bottom.deepest(&area) }
+    }
+
     /// What both were made from, by names as seen from the folder of the script: equal runs leave equal journals, wherever the files
     /// lie and however their paths were written.
     pub(crate) fn sources_from_script(&self) -> Vec<SourceDigest> {
@@ -151,7 +160,17 @@ impl Plan {
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
         let (scenario_name, sources) = (link.to_string(), sources(script));
         let (warnings, places, scenario_script) = (Vec::new(), Vec::new(), None);
-        Ok(Plan { program, scenario, scenario_name, scenario_script, sources, warnings, places, survey })
+        Ok(Plan {
+            program,
+            scenario,
+            scenario_name,
+            scenario_script,
+            sources,
+            warnings,
+            places,
+            survey,
+            deepest: Arc::default(),
+        })
     }
 
     /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
@@ -194,7 +213,17 @@ impl Plan {
         let sources = sources(script).into_iter().chain(understood.files).collect();
         let (places, warnings) = (lowered.places, Vec::new());
         let scenario_script = Some(digest(script.sources.get(lowered.span.file)));
-        Ok(Plan { program, scenario, scenario_name, scenario_script, sources, warnings, places, survey })
+        Ok(Plan {
+            program,
+            scenario,
+            scenario_name,
+            scenario_script,
+            sources,
+            warnings,
+            places,
+            survey,
+            deepest: Arc::default(),
+        })
     }
 }
 

@@ -350,7 +350,7 @@ impl Recorder for Results {
             self.area = areas.next().map(|(_, corners)| corners).unwrap_or_default();
             self.regions = areas.collect();
             let (bottom, area) = (&self.plan.scenario.environment.bottom, Area::polygon(&self.area).ok());
-            self.deepest = area.filter(|_| !bottom.is_level()).map(|area| bottom.deepest(&area));
+            self.deepest = area.filter(|_| !bottom.is_level()).map(|area| self.plan.deepest(area));
         }
         match &record.step {
             Step::Wait => {}
