@@ -227,7 +227,7 @@ impl Campaign<'_> {
     fn sum_up(&self, plan: &Plan, seeds: Seeds, tally: &Tally) {
         interruption::nobody_looks();
         let run = [
-            vec!["albacore run".to_string(), shell::word(self.script.as_os_str())],
+            vec!["albacore run".to_string(), shell::path(self.script)],
             self.asked.choice.words(),
             self.asked.faults.words(),
         ];

@@ -2,6 +2,14 @@
 
 use albacore_session::seen::is_unseen;
 use std::ffi::OsStr;
+use std::path::Path;
+
+/// A path as a shell takes it, and no program for an option.
+pub fn path(path: &Path) -> String {
+    let path =
+        if path.as_os_str().as_encoded_bytes().starts_with(b"-") { Path::new(".").join(path) } else { path.into() };
+    word(path.as_os_str())
+}
 
 /// A word as a shell takes it. One that a terminal would not show, or that is no text, is written out in the way of `$'\x1b'`.
 pub fn word(word: &OsStr) -> String {

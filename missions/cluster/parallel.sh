@@ -10,6 +10,7 @@ shards=$1 script=$2 seeds=$3 folder=$4
 shift 4
 albacore=${ALBACORE:-albacore}
 mkdir -p "$folder"
-seq -f %04g "$shards" | parallel --halt now,fail=1 "$albacore" campaign "$script" --seeds "$seeds" \
-    --shard "{= s/^0+// =}/$shards" --threads 1 --resume --out "$folder/part-{}.csv" "$@" ">" /dev/null
+# Each argument reaches the program as it was given: what a shell would read in it is quoted.
+seq -f %04g "$shards" | parallel --quote --halt now,fail=1 "$albacore" campaign "$script" --seeds "$seeds" \
+    --shard "{= s/^0+// =}/$shards" --threads 1 --resume --out "$folder/part-{}.csv" "$@" > "$folder/summaries.txt"
 exec "$albacore" campaign merge "$folder"/part-*.csv --seeds "$seeds" --out "$folder.csv"

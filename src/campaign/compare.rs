@@ -11,9 +11,9 @@ use std::path::PathBuf;
 
 /// Compare two tables, seed by seed.
 ///
-/// The tables are of one scenario, and of missions, parameters or faults that differ: the same seed is the same water in both. Shares are
+/// The tables are of one world, and of missions, parameters, vehicles or faults that differ: the same seed is the same water in both. Shares are
 /// compared by McNemar's test and Newcombe's interval for paired shares; errors, times and ways by the median of their
-/// differences. Tables of different scenarios or versions, or without a seed in common, are refused.
+/// differences. Tables of other water, bottom or plume, of different versions, or without a seed in common, are refused.
 #[derive(clap::Args)]
 pub struct Compare {
     /// One table.
@@ -104,15 +104,8 @@ impl Compare {
 impl Comparison {
     fn of(a: &WrittenTable, b: &WrittenTable) -> Result<Self, Unusable> {
         if let Some(why) = a.origin.other_world(&b.origin) {
-            let help = "only in one world the same seed is the same water: run both missions in it";
+            let help = "only in one world the same seed is the same water: run both in it";
             return Err((format!("the tables cannot be compared: {why}"), help.to_string()));
-        }
-        if a.origin.may_be_other_world(&b.origin) {
-            let what = "the scenario stands in scripts that differ";
-            message::warning(
-                what,
-                "where the scenario itself was changed, the same seed is other water: nothing is paired then",
-            );
         }
         let (first, second) = (cells(a)?, cells(b)?);
         let pairs: Vec<(&Cells, &Cells)> = first.iter().filter_map(|(seed, a)| Some((a, second.get(seed)?))).collect();
@@ -155,7 +148,8 @@ impl Comparison {
             lines.add(&format!("{name}  {of}  ({table}{more})"));
         }
         let scripts = if self.scripts_differ { "; the scripts differ" } else { "" };
-        lines.add(&format!("{} seeds in both{scripts}", self.pairs));
+        let seeds = if self.pairs == 1 { "1 seed".to_string() } else { format!("{} seeds", self.pairs) };
+        lines.add(&format!("{seeds} in both{scripts}"));
         lines.add("                      A         B    B - A                      A alone  B alone  p");
         for ShareOf { what, share } in &self.shares {
             let percent = |x: f64| format!("{:.1} %", 100.0 * x);

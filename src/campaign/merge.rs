@@ -7,7 +7,8 @@ use super::table::TableError;
 use super::written::{Unusable, WrittenTable};
 use crate::disk;
 use crate::exit::Exit;
-use crate::{message, output};
+use crate::{interruption, message, output};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Put the tables of shards together.
@@ -102,31 +103,46 @@ impl Merge {
         Ok(())
     }
 
-    /// Writes the table last: who finds it finds what lies beside it, too.
+    /// Writes the three files. Whoever writes to that name at once, another merge or a campaign, finds that it is there: the table is begun
+    /// first, and nobody else's file is touched.
     fn write(&self, parts: &[WrittenTable]) -> Result<(), Unusable> {
         let Some(first) = parts.first() else { return Ok(()) };
         let out = self.out.as_path();
         let mut files = std::iter::once(out.to_path_buf()).chain(neighbours::neighbours(out));
-        let there = files.find(|path| is_there(path));
-        if let Some(there) = there {
-            let message = format!("`{}` is there already", there.display());
-            return Err((message, "choose another file with `--out`".to_string()));
+        if let Some(there) = files.find(|path| is_there(path)) {
+            return Err(is_there_already(&there));
         }
+        // Who interrupts finds all three, or none.
+        let _held = interruption::held();
+        let mut table = match disk::new_file(out) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(is_there_already(out)),
+            table => table.map_err(|error| not_written(out, TableError::Disk(out.to_path_buf(), error)))?,
+        };
         let lines = || {
-            std::iter::once(first.head.as_slice())
-                .chain(parts.iter().flat_map(|part| &part.rows).map(|(_, line)| line.as_slice()))
+            let rows = parts.iter().flat_map(|part| &part.rows).map(|(_, line)| line.as_slice());
+            std::iter::once(first.head.as_slice()).chain(rows)
         };
         let origin = &first.origin;
-        let written =
-            neighbours::write(origin, out).and_then(|()| Sums::go_on(out, origin.key(), &[], lines())).and_then(|_| {
-                disk::keep(out, &lines().collect::<Vec<_>>().concat())
-                    .map_err(|error| TableError::Disk(out.to_path_buf(), error))
+        let written = neighbours::lock(&table, out)
+            .and_then(|()| neighbours::write(origin, out))
+            .and_then(|()| Sums::go_on(out, origin.key(), &[], lines()))
+            .and_then(|_| {
+                let bytes = lines().collect::<Vec<_>>().concat();
+                let added = table.write_all(&bytes).and_then(|()| table.sync_all());
+                added.map_err(|error| TableError::Disk(out.to_path_buf(), error))
             });
         written.map_err(|error| {
-            neighbours::neighbours(out).iter().for_each(|left| drop(disk::remove(left)));
+            std::iter::once(out.to_path_buf())
+                .chain(neighbours::neighbours(out))
+                .for_each(|left| drop(disk::remove(&left)));
             not_written(out, error)
         })
     }
+}
+
+fn is_there_already(path: &Path) -> Unusable {
+    let help = "choose another file with `--out`; what a merge has left that was killed can be removed";
+    (format!("`{}` is there already", path.display()), help.to_string())
 }
 
 fn not_written(out: &Path, error: TableError) -> Unusable {

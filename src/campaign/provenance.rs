@@ -20,6 +20,8 @@ pub struct Provenance {
     set: Vec<String>,
     fault: Vec<String>,
     sources: Vec<ScriptDigest>,
+    /// The digest of the scenario's water, bottom and plume.
+    world: String,
     /// The first seed; the rows of the others follow.
     first_seed: u64,
     /// The digest of all before it.
@@ -38,6 +40,7 @@ impl Provenance {
             set: set.to_vec(),
             fault: fault.to_vec(),
             sources: scripts(plan),
+            world: format!("{:016x}", plan.world_digest()),
             first_seed,
             sum: String::new(),
         }
@@ -51,7 +54,18 @@ impl Provenance {
     /// All of it that [`Provenance::difference`] compares, in short: no row of another campaign has a checksum that fits.
     pub fn key(&self) -> OriginKey {
         let digests = |scripts: &[ScriptDigest]| scripts.iter().map(|script| script.digest.clone()).collect::<Vec<_>>();
-        let Provenance { albacore, mission, scenario, scenario_script, set, fault, sources, first_seed, sum: _ } = self;
+        let Provenance {
+            albacore,
+            mission,
+            scenario,
+            scenario_script,
+            set,
+            fault,
+            sources,
+            world: _,
+            first_seed,
+            sum: _,
+        } = self;
         let (own, of_scenario) = (digests(sources), digests(scenario_script.as_slice()));
         let told = serde_json::json!([albacore, mission, scenario, first_seed, set, fault, own, of_scenario]);
         let mut key = Digest::new();
@@ -76,25 +90,28 @@ impl Provenance {
         format!("{} in {}{}", self.mission, self.scenario, set.chain(fault).collect::<String>())
     }
 
-    /// Why runs of one seed are not of one world, if they are not.
+    /// Why runs of one seed are not of one water, if they are not.
     pub fn other_world(&self, other: &Provenance) -> Option<String> {
-        if self.scenario != other.scenario {
-            return Some(format!("one is of the scenario `{}`, the other of `{}`", self.scenario, other.scenario));
+        if self.world != other.world {
+            return Some(match self.scenario == other.scenario {
+                true => format!(
+                    "the water, the bottom or the plume of `{}` is another in the one than in the other",
+                    self.scenario
+                ),
+                false => format!(
+                    "one is of the scenario `{}`, the other of `{}`, and their worlds differ",
+                    self.scenario, other.scenario
+                ),
+            });
         }
         (self.albacore != other.albacore)
             .then(|| format!("one is of albacore {}, the other of {}", self.albacore, other.albacore))
     }
 
-    /// Whether the scripts that it is of are others, word for word.
+    /// Whether the scripts that it is of, or the files that these read, are others.
     pub fn scripts_differ(&self, other: &Provenance) -> bool {
         let digests = |of: &Provenance| of.sources.iter().map(|source| source.digest.clone()).collect::<Vec<_>>();
         digests(self) != digests(other)
-    }
-
-    /// Whether the scenario stands in scripts that differ, so that it may be another of the same name.
-    pub fn may_be_other_world(&self, other: &Provenance) -> bool {
-        let digest = |of: &Provenance| of.scenario_script.as_ref().map(|script| script.digest.clone());
-        digest(self) != digest(other)
     }
 
     /// What of this is otherwise now, if anything is.

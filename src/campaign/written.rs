@@ -24,6 +24,14 @@ pub struct WrittenTable {
 /// Why a table cannot be used: what is wrong, and a fix.
 pub type Unusable = (String, String);
 
+/// Finds the seed in a row of a table with this first line.
+fn seeds(head: &[u8]) -> impl Fn(&[u8]) -> Option<u64> + use<> {
+    let cells =
+        |line: &[u8]| csv::ReaderBuilder::new().has_headers(false).from_reader(line).into_records().next()?.ok();
+    let column = cells(head).and_then(|names| names.iter().position(|name| name == "seed"));
+    move |line| cells(line)?.get(column?)?.parse().ok()
+}
+
 impl WrittenTable {
     /// Reads a table and the two files beside it.
     pub fn read(path: &Path) -> Result<Self, Unusable> {
@@ -58,8 +66,16 @@ impl WrittenTable {
         }
         let mut lines = kept.lines.into_iter().map(|(_, line)| line);
         let head = lines.next().unwrap_or_default().to_vec();
-        let seeds = origin.first_seed()..;
-        let rows: Vec<_> = seeds.zip(lines.map(<[u8]>::to_vec)).collect();
+        let rows: Vec<(u64, Vec<u8>)> = (origin.first_seed()..).zip(lines.map(<[u8]>::to_vec)).collect();
+        // Whoever takes a row out and its checksum too leaves a table that is whole by its sums.
+        let seed_of = seeds(&head);
+        if let Some((due, found)) =
+            rows.iter().map(|(due, line)| (*due, seed_of(line))).find(|(due, found)| *found != Some(*due))
+        {
+            let found = found.map_or("none".to_string(), |found| format!("seed {found}"));
+            let message = format!("`{shown}` has {found} where seed {due} is due: rows were taken out of it");
+            return Err((message, again.to_string()));
+        }
         if rows.is_empty() {
             return Err((format!("`{shown}` has no rows"), again.to_string()));
         }

@@ -71,6 +71,34 @@ fn a_table_tells_what_was_found_where_and_in_what_time() {
     assert_eq!((row["recovery_s"].as_str(), row["recovery_m"].as_str()), ("0.0", "0.000"));
 }
 
+/// A behavior within one of its name is active once, what a table's behavior calls is a result, and a quantity is a number.
+#[test]
+fn what_is_called_within_counts_once_and_tells() {
+    let folder = empty("account_within");
+    let nested = r#"
+behavior look(deep: Bool) { steer east for 4 s; if deep { inner.look() } }
+behavior measured() -> Length { look(true); finish -3.25 m }
+mission nested in calm within 5 min {
+    area op = rectangle(center: 36°10.8'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits { altitude >= 2 m, speed <= 2.5 m/s }
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 1 min { goto op.center }
+    with depth 3 m, speed 1 m/s
+    behavior survey {
+        let deep = measured()
+        log "{deep}"
+    }
+    start survey
+    survey -> finish on done
+}
+"#;
+    script(&folder, "inner.alb", "behavior look() { steer south for 2 s }\n");
+    let mission = script(&folder, "nested.alb", &format!("use inner\n{nested}"));
+    let row = row(&table(&mission, "1", &folder.join("t.csv"), &[]));
+    let number = |name: &str| row[name].parse::<f64>().unwrap();
+    assert_eq!((number("look_s"), row["result"].as_str()), (6.0, "-3.25"), "{row:?}");
+}
+
 #[test]
 fn what_was_not_found_is_told_from_what_was_cut_off() {
     let folder = empty("account_missed");

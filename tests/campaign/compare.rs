@@ -38,8 +38,8 @@ fn tables_of_one_world_are_compared_seed_by_seed() {
     let later = script(&folder, "later.alb", &east);
     table(&later, "1..20", &near, &[]);
     let output = compare(&good, &near, &[]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(stderr(&Output { stdout: Vec::new(), ..compare(&good, &near, &[]) }).contains("scripts that differ"));
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(text.contains("20 seeds in both; the scripts differ\n"), "{text}");
     assert!(text.contains("  end               13.2      18.2  s +5.0 (+5.0 to +5.0)\n"), "{text}");
     assert!(
@@ -48,24 +48,34 @@ fn tables_of_one_world_are_compared_seed_by_seed() {
     );
 }
 
+/// Worlds like that of the mission.
+const MORE: &str = "
+scenario brook = stream with { flow(5 cm/s toward 90 deg) }
+scenario other_hull = stream with { vehicle(fossen, start: point(north: 0 m, east: 0 m), depth: 3 m) }
+";
+
 #[test]
 fn tables_that_are_not_comparable_are_refused() {
     let folder = empty("compare_refused");
-    let mission = script(
-        &folder,
-        "seeking.alb",
-        &format!("{SEEKING}\nscenario brook = stream with {{ flow(5 cm/s toward 90 deg) }}\n"),
-    );
-    let [a, brook, late] = ["a.csv", "brook.csv", "late.csv"].map(|name| folder.join(name));
+    let drifting = "scenario stream(drift: Speed = 10 cm/s in 1 cm/s..1 m/s) {";
+    let seeking = SEEKING.replace("scenario stream {", drifting).replace("flow(10 cm/s", "flow(drift");
+    let mission = script(&folder, "seeking.alb", &(seeking + MORE));
+    let [a, brook, slow, hull, late] =
+        ["a.csv", "brook.csv", "slow.csv", "hull.csv", "late.csv"].map(|name| folder.join(name));
     table(&mission, "1..3", &a, &[]);
     table(&mission, "1..3", &brook, &["--in", "brook"]);
+    table(&mission, "1..3", &slow, &["--set", "stream.drift=5cm/s"]);
+    table(&mission, "1..3", &hull, &["--in", "other_hull"]);
     table(&mission, "7..8", &late, &[]);
     let refused = |b: &Path, said: &str| {
         let output = compare(&a, b, &[]);
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
         assert!(stderr(&output).contains(said), "`{said}` is not in: {}", stderr(&output));
     };
-    refused(&brook, "one is of the scenario `stream`, the other of `brook`");
+    refused(&brook, "one is of the scenario `stream`, the other of `brook`, and their worlds differ");
+    // By whatever the water was changed; another vehicle in it can be compared.
+    refused(&slow, "the water, the bottom or the plume of `stream` is another in the one than in the other");
+    assert!(compare(&a, &hull, &[]).status.success());
     refused(&late, "no seed in common: 1..3, and 7..8");
     refused(&folder.join("none.csv"), "cannot be read");
     std::fs::write(folder.join("plain.csv"), "seed,outcome\n1,completed\n").unwrap();

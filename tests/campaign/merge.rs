@@ -76,6 +76,37 @@ fn parts_that_do_not_fit_are_refused_and_nothing_is_written() {
     refused(&[first, second, third], &[], "was changed since it was written: line 2");
 }
 
+/// Whoever takes out a row and its checksum leaves a table whose sums are right.
+#[test]
+fn a_row_that_was_taken_out_is_missed() {
+    let (folder, _, parts) = shards("merge_taken", 2);
+    let mut sums = parts[1].clone().into_os_string();
+    sums.push(".sums");
+    for file in [parts[1].as_os_str(), &sums] {
+        let text = std::fs::read_to_string(file).unwrap();
+        let kept: String =
+            text.split_inclusive('\n').enumerate().filter(|(i, _)| *i != 2).map(|(_, line)| line).collect();
+        std::fs::write(file, kept).unwrap();
+    }
+    let output = merge(&[&parts[0], &parts[1]], &folder.join("merged.csv"), &[]);
+    assert!(stderr(&output).contains("has seed 18 where seed 17 is due"), "{}", stderr(&output));
+}
+
+/// Two merges to one name: one writes, the other touches nothing.
+#[test]
+fn of_two_merges_one_writes() {
+    let (folder, _, parts) = shards("merge_twice", 2);
+    for round in 0..10 {
+        let out = folder.join(format!("{round}.csv"));
+        let outputs: Vec<Output> = std::thread::scope(|scope| {
+            let both: Vec<_> = (0..2).map(|_| scope.spawn(|| merge(&[&parts[0], &parts[1]], &out, &[]))).collect();
+            both.into_iter().map(|merge| merge.join().unwrap()).collect()
+        });
+        assert_eq!(outputs.iter().filter(|output| output.status.success()).count(), 1);
+        assert!(files(&out).iter().all(|file| !file.is_empty()));
+    }
+}
+
 #[test]
 fn a_table_that_is_there_is_left_alone() {
     let (folder, _, parts) = shards("merge_there", 2);

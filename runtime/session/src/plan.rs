@@ -12,9 +12,10 @@ use albacore_lang::source::{Source, Sources};
 use albacore_link::Dialect;
 use albacore_machine::Chart;
 use albacore_program::Program;
-use albacore_sim::{Bottom, Fault, Ground, Scenario};
+use albacore_sim::{Bottom, Environment, Fault, Ground, Scenario};
 use albacore_trace::Digest;
 use albacore_trace::journal::SourceDigest;
+use std::fmt::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -41,6 +42,16 @@ pub struct Plan {
     deepest: Arc<OnceLock<(Area, Point)>>,
 }
 
+/// A digest of what is written to it.
+struct DebugDigest<'a>(&'a mut Digest);
+
+impl fmt::Write for DebugDigest<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.bytes(text.as_bytes());
+        Ok(())
+    }
+}
+
 /// Why a script cannot be run as asked.
 #[derive(Debug)]
 pub enum PlanError {
@@ -63,6 +74,20 @@ impl Plan {
         let bottom = &self.scenario.environment.bottom;
         let (known, deepest) = self.deepest.get_or_init(|| (area.clone(), bottom.deepest(&area)));
         if *known == area { *deepest } else { bottom.deepest(&area) }
+    }
+
+    /// A digest of the world's water, bottom and plume, whatever swims in it: where it is the same, the same seed is the same water.
+    pub fn world_digest(&self) -> u64 {
+        // A recorded plume is what its files are.
+        let environment = Environment { recording: None, ..self.scenario.environment.clone() };
+        let mut digest = Digest::new();
+        let recorded = self.scenario.environment.recording.as_ref();
+        let told = recorded.map(|plume| (plume.kernel, plume.start, plume.start_spread, plume.threshold));
+        // Memory takes everything.
+        let _ = write!(DebugDigest(&mut digest), "{environment:?} {told:?}");
+        let is_data = |source: &&SourceDigest| recorded.is_some() && !source.name.ends_with(".alb");
+        self.sources.iter().filter(is_data).for_each(|source| digest.bytes(&source.digest.to_le_bytes()));
+        digest.value()
     }
 
     /// What both were made from, by names as seen from the folder of the script: equal runs leave equal journals, wherever the files

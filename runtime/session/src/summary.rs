@@ -28,7 +28,7 @@ pub struct Summary {
     pub wall_s: f64,
     /// The way over ground, in metres.
     pub path_length_m: f64,
-    /// What the last strategy, or behavior with a result, that the mission itself called came to.
+    /// What the last strategy, or behavior with a result, came to that was in no other.
     pub result: Option<Finished>,
     /// How many rules fired.
     pub switches: u64,

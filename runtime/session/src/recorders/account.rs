@@ -24,12 +24,22 @@ fn is_behavior(activity: &Activity) -> bool {
     matches!(activity.kind, ActivityKind::Behavior | ActivityKind::Strategy | ActivityKind::Recovery)
 }
 
+/// What was spent in the behaviors of a name.
+#[derive(Clone, Default)]
+struct Spent {
+    entered: u64,
+    ticks: u64,
+    metres: f64,
+    /// The tick that was counted last: one that calls another of its name is active once.
+    counted: Option<u64>,
+}
+
 /// Keeps the account.
 pub(crate) struct Account {
     program: Arc<Program>,
     active: Active,
-    /// Of each behavior: how often it was entered, ticks in it, and metres.
-    spent: Vec<(u64, u64, f64)>,
+    /// What was spent in each behavior.
+    spent: Vec<Spent>,
     /// For each activity where its behavior is among those.
     places: Vec<Option<usize>>,
     /// How many of the required inputs are too old, and the link among them.
@@ -46,7 +56,7 @@ impl Account {
         let place = |activity: &Activity| names.iter().position(|name| is_behavior(activity) && *name == activity.name);
         Account {
             places: program.activities.iter().map(place).collect(),
-            spent: vec![(0, 0, 0.0); names.len()],
+            spent: vec![Spent::default(); names.len()],
             program: Arc::clone(program),
             active: Active::default(),
             late: 0,
@@ -61,7 +71,7 @@ impl Account {
         self.holds
     }
 
-    /// What the last strategy, or behavior with a result, that the mission itself called came to.
+    /// What the last strategy, or behavior with a result, came to that was in no other.
     pub fn finished(&self) -> Option<&Finished> {
         self.finished.as_ref()
     }
@@ -69,11 +79,11 @@ impl Account {
     /// The behaviors that were entered.
     pub fn behaviors(&self) -> Vec<BehaviorSummary> {
         let spent = behavior_names(&self.program).into_iter().zip(&self.spent);
-        let summary = |(name, &(entered, ticks, path_length_m)): (&str, &(u64, u64, f64))| BehaviorSummary {
+        let summary = |(name, spent): (&str, &Spent)| BehaviorSummary {
             name: name.to_string(),
-            entered,
-            time_s: seconds(ticks),
-            path_length_m,
+            entered: spent.entered,
+            time_s: seconds(spent.ticks),
+            path_length_m: spent.metres,
         };
         spent.map(summary).filter(|behavior| behavior.entered > 0).collect()
     }
@@ -83,8 +93,8 @@ impl Account {
         for event in &record.events {
             match event {
                 Event::Entered(id) => {
-                    if let Some((entered, ..)) = self.place(*id) {
-                        *entered += 1;
+                    if let Some(spent) = self.place(*id) {
+                        spent.entered += 1;
                     }
                 }
                 Event::Finished(id, words) => self.result = Some((*id, words.clone())),
@@ -99,9 +109,11 @@ impl Account {
             self.active.follow(event, &self.program);
         }
         for id in &record.active {
-            if let Some((_, ticks, metres)) = self.place(*id) {
-                *ticks += 1;
-                *metres += way;
+            if let Some(spent) = self.place(*id)
+                && spent.counted.replace(record.tick) != Some(record.tick)
+            {
+                spent.ticks += 1;
+                spent.metres += way;
             }
         }
     }
@@ -111,7 +123,7 @@ impl Account {
         self.active = Active::default();
     }
 
-    fn place(&mut self, id: ActivityId) -> Option<&mut (u64, u64, f64)> {
+    fn place(&mut self, id: ActivityId) -> Option<&mut Spent> {
         let place = self.places.get(id as usize).copied().flatten()?;
         self.spent.get_mut(place)
     }
@@ -119,17 +131,17 @@ impl Account {
     fn leave(&mut self, id: ActivityId, cause: Cause) {
         let result = self.result.take().filter(|(of, _)| *of == id);
         let Some(activity) = self.program.activities.get(id as usize) else { return };
-        let tells = activity.kind == ActivityKind::Strategy || is_behavior(activity) && activity.result.is_some();
-        // The mission is the outermost: what it calls stands next to it.
-        if !tells || self.active.depth(id) != 1 {
+        // What is in another that tells is a part of that.
+        let around = &self.active.chain()[..self.active.depth(id)];
+        let is_part = around.iter().filter_map(|id| self.program.activities.get(*id as usize)).any(tells);
+        if !tells(activity) || is_part {
             return;
         }
         let reader = Reader { program: &self.program, frame: None };
-        let value = activity
-            .result
-            .as_ref()
-            .zip(result)
-            .map(|(of, (_, words))| (word(&self.program, &of.shape, &words), reader.json(&of.shape, &words)));
+        let value = activity.result.as_ref().zip(result).map(|(of, (_, words))| {
+            let value = reader.json(&of.shape, &words);
+            (word(&self.program, &of.shape, &words, &value), value)
+        });
         let end = match cause {
             Cause::Done => "done",
             Cause::TimedOut => "timed_out",
@@ -141,11 +153,21 @@ impl Account {
     }
 }
 
+/// Whether what an activity comes to is told: of a strategy, and of a behavior with a result.
+fn tells(activity: &Activity) -> bool {
+    activity.kind == ActivityKind::Strategy || is_behavior(activity) && activity.result.is_some()
+}
+
 /// A result in one word: `none`, a number, a word; of what holds more, what it is.
-fn word(program: &Program, shape: &Shape, words: &[f64]) -> String {
+fn word(program: &Program, shape: &Shape, words: &[f64], value: &serde_json::Value) -> String {
+    // A quantity is a number in the unit that its value has.
+    if let Some(number) = value.get("value").and_then(serde_json::Value::as_f64) {
+        return number::digits(number);
+    }
     match shape {
         Shape::Optional(_) if words.first() != Some(&1.0) => "none".to_string(),
-        Shape::Optional(shape) => word(program, shape, words.get(1..).unwrap_or_default()),
+        Shape::Optional(shape) => word(program, shape, words.get(1..).unwrap_or_default(), value),
+        Shape::Quantity(_) => number::digits(value.as_f64().unwrap_or(f64::NAN)),
         Shape::Point => "place".to_string(),
         Shape::Vector(_) => "vector".to_string(),
         Shape::Line | Shape::Edge => "line".to_string(),
