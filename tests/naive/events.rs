@@ -17,7 +17,7 @@ fn line(p: &Program, event: &Event) -> String {
         Event::Entered(id) => format!("enter {}", name(*id)),
         Event::Finished(id, words) => {
             let result = p.activities[*id as usize].result.as_ref();
-            let told = result.map(|result| exactly(&p.texts, &name(*id), &result.shape, words));
+            let told = result.map(|result| exactly(&p.texts, name(*id), &result.shape, words));
             format!("finish {}", told.unwrap_or_default())
         }
         Event::Left(id, cause) => format!("leave {} {cause:?}", name(*id)),
