@@ -5,8 +5,12 @@ use crate::output::Lines;
 use albacore_session::Plan;
 use albacore_session::campaign::{INTERVAL, Missed, QUANTILE, Quantiles, Share, Tally, Within};
 use serde::Serialize;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Results, and causes of misses, that a person is shown.
+const LISTED_MAX: usize = 8;
 
 /// The summary, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
 #[derive(Serialize)]
@@ -80,9 +84,12 @@ impl<'a> CampaignSummary<'a> {
             self.outcomes.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
         lines.add(&format!("{} in {}, {seeds}: {}", self.mission, self.scenario, outcomes.join(", ")));
         if !self.results.is_empty() {
-            let results: Vec<String> =
-                self.results.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
-            lines.add(&format!("  {:<13} {}", "result", results.join(", ")));
+            let mut results: Vec<_> = self.results.iter().collect();
+            results.sort_by_key(|(_, count)| Reverse(**count));
+            let told =
+                results.iter().take(LISTED_MAX).map(|(name, count)| format!("{count} {}", name.replace('_', " ")));
+            let more = if results.len() > LISTED_MAX { ", …" } else { "" };
+            lines.add(&format!("  {:<13} {}{more}", "result", told.collect::<Vec<_>>().join(", ")));
         }
         lines.add(&self.share("reported", &self.reported));
         for within in self.within.iter().flatten() {
@@ -102,13 +109,16 @@ impl<'a> CampaignSummary<'a> {
             }
         }
         lines.add(&format!("  intervals: {}; quantiles: {}", self.interval, self.quantile));
-        for Cause { why, missed, command } in &self.missed {
+        for Cause { why, missed, command } in self.missed.iter().take(LISTED_MAX) {
             let Missed { count, seeds } = missed;
             let listed: Vec<String> = seeds.iter().map(u64::to_string).collect();
             let more = if *count > seeds.len() { ", …" } else { "" };
             let seeds = format!("seed{} {}{more}", if *count == 1 { "" } else { "s" }, listed.join(", "));
             lines.add(&format!("  missed        {count}, {why}: {seeds}"));
             lines.add(&format!("                {command}"));
+        }
+        if self.missed.len() > LISTED_MAX {
+            lines.add(&format!("  missed        by {} causes more: `--json` has them", self.missed.len() - LISTED_MAX));
         }
         lines.add(&format!("  table {}", self.table));
         lines

@@ -1,4 +1,4 @@
-//! Two campaigns over the same seeds, compared run by run: in one scenario the same seed is the same water.
+//! Two campaigns over the same seeds, compared run by run: in one world the same seed is the same water.
 
 use super::statistics::{Quantiles, Share};
 use albacore_geometry::math::{exp, ln};
@@ -145,7 +145,7 @@ mod tests {
             .collect()
     }
 
-    /// The probabilities as R's `binom.test` gives them.
+    /// The probabilities are sums of the binomial distribution, computed in whole numbers.
     #[test]
     fn mcnemars_test_is_exact() {
         let p = |only_a, only_b| PairedShare::of(&pairs(50, only_a, only_b, 10)).p;

@@ -9,6 +9,10 @@ use std::collections::BTreeMap;
 pub const WITHIN_M: [f64; 3] = [15.0, 30.0, 50.0];
 /// Seeds of one cause of misses that are listed.
 const MISSED_MAX: usize = 5;
+/// Results, and causes of misses, that are told apart: they may be numbers, or hold some. All further ones are one.
+const APART_MAX: usize = 100;
+/// What these are called.
+const OTHERS: &str = "others";
 
 /// The rows taken in so far.
 #[derive(Clone, Debug, Default)]
@@ -54,10 +58,10 @@ impl Tally {
         self.runs += 1;
         *self.outcomes.entry(cell("outcome").to_string()).or_default() += 1;
         if !cell("result").is_empty() {
-            *self.results.entry(cell("result").to_string()).or_default() += 1;
+            *told_apart(&mut self.results, cell("result").to_string()) += 1;
         }
         if let Some(why) = missed(columns, cells) {
-            let missed = self.missed.entry(why).or_default();
+            let missed = told_apart(&mut self.missed, why);
             missed.count += 1;
             missed.seeds.extend(cell("seed").parse::<u64>().ok().filter(|_| missed.count <= MISSED_MAX));
         }
@@ -149,6 +153,12 @@ impl Tally {
     pub fn crowded(&self) -> (usize, usize) {
         (self.crowded, self.reports_max)
     }
+}
+
+/// What is kept under a name, or with that of all others where there are too many.
+fn told_apart<T: Default>(kept: &mut BTreeMap<String, T>, name: String) -> &mut T {
+    let is_one_more = !kept.contains_key(&name) && kept.len() >= APART_MAX;
+    kept.entry(if is_one_more { OTHERS.to_string() } else { name }).or_default()
 }
 
 /// Why a run missed what it was for, if it did.
