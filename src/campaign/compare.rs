@@ -27,7 +27,7 @@ pub struct Compare {
     json: bool,
 }
 
-/// What is compared as a quantity: its column, its name and its unit.
+/// What is compared as a quantity: its column, its name and its unit. The first two are shares, too.
 const QUANTITIES: [(&str, &str, &str); 5] = [
     ("error_m", "error", "m"),
     ("report_t_s", "first report", "s"),
@@ -38,9 +38,6 @@ const QUANTITIES: [(&str, &str, &str); 5] = [
 
 /// A smaller probability is told as this.
 const P_MIN: f64 = 0.001;
-
-/// The columns of what is compared as a share.
-const SHARES: [&str; 3] = ["outcome", "report_t_s", "error_m"];
 
 /// What two tables come to together.
 #[derive(Serialize)]
@@ -82,8 +79,23 @@ struct DifferenceOf {
     difference: PairedDifference,
 }
 
-/// The cells of a run that are compared, by the names of their columns.
-type Cells = BTreeMap<String, String>;
+/// What is compared of a run.
+struct Compared {
+    completed: bool,
+    /// Each of [`QUANTITIES`], where the run has it.
+    numbers: [Option<f64>; QUANTITIES.len()],
+}
+
+impl Compared {
+    /// Metres from what was reported first to what there was to be found.
+    fn error_m(&self) -> Option<f64> {
+        self.numbers[0]
+    }
+
+    fn has_reported(&self) -> bool {
+        self.numbers[1].is_some()
+    }
+}
 
 impl Compare {
     /// Prints the comparison, or says why there is none.
@@ -107,8 +119,8 @@ impl Comparison {
             let help = "only in one world the same seed is the same water: run both in it";
             return Err((format!("the tables cannot be compared: {why}"), help.to_string()));
         }
-        let (first, second) = (cells(a)?, cells(b)?);
-        let pairs: Vec<(&Cells, &Cells)> = first.iter().filter_map(|(seed, a)| Some((a, second.get(seed)?))).collect();
+        let (first, second) = (compared(a)?, compared(b)?);
+        let pairs: Vec<_> = first.iter().filter_map(|(seed, a)| Some((a, second.get(seed)?))).collect();
         if pairs.is_empty() {
             let seeds = |table: &WrittenTable| format!("{}..{}", table.first(), table.last());
             let message = format!("the tables have no seed in common: {}, and {}", seeds(a), seeds(b));
@@ -119,9 +131,8 @@ impl Comparison {
             of: table.origin.told(),
             left_out: table.rows.len() - pairs.len(),
         };
-        let difference = |&(column, what, unit): &(&str, &'static str, &'static str)| {
-            let number = |run: &Cells| run.get(column).and_then(|cell| cell.parse::<f64>().ok());
-            let numbers: Vec<_> = pairs.iter().filter_map(|(a, b)| number(a).zip(number(b))).collect();
+        let difference = |(i, (_, what, unit)): (usize, (&str, &'static str, &'static str))| {
+            let numbers: Vec<_> = pairs.iter().filter_map(|(a, b)| a.numbers[i].zip(b.numbers[i])).collect();
             PairedDifference::of(&numbers).map(|difference| DifferenceOf { what, unit, difference })
         };
         Ok(Comparison {
@@ -130,7 +141,7 @@ impl Comparison {
             pairs: pairs.len(),
             scripts_differ: a.origin.scripts_differ(&b.origin),
             shares: shares(&pairs),
-            differences: QUANTITIES.iter().filter_map(difference).collect(),
+            differences: QUANTITIES.into_iter().enumerate().filter_map(difference).collect(),
             share_interval: SHARE_INTERVAL,
             median_interval: MEDIAN_INTERVAL,
             test: TEST,
@@ -175,43 +186,40 @@ impl Comparison {
 }
 
 /// What runs achieve, as shares of the pairs: where none reports anything there is nothing to be said of reports.
-fn shares(pairs: &[(&Cells, &Cells)]) -> Vec<ShareOf> {
-    let cell = |run: &Cells, name: &str| run.get(name).cloned().unwrap_or_default();
-    let share = |what: String, holds: &dyn Fn(&Cells) -> bool| {
+fn shares(pairs: &[(&Compared, &Compared)]) -> Vec<ShareOf> {
+    let share = |what: String, holds: &dyn Fn(&Compared) -> bool| {
         let pairs: Vec<(bool, bool)> = pairs.iter().map(|(a, b)| (holds(a), holds(b))).collect();
         ShareOf { what, share: PairedShare::of(&pairs) }
     };
-    let mut shares = vec![share("completed".to_string(), &|run| cell(run, "outcome") == "completed")];
-    let any = |name: &str| pairs.iter().any(|(a, b)| !cell(a, name).is_empty() || !cell(b, name).is_empty());
-    if any("report_t_s") {
-        shares.push(share("reported".to_string(), &|run| !cell(run, "report_t_s").is_empty()));
+    let any = |has: &dyn Fn(&Compared) -> bool| pairs.iter().any(|(a, b)| has(a) || has(b));
+    let mut shares = vec![share("completed".to_string(), &|run| run.completed)];
+    if any(&Compared::has_reported) {
+        shares.push(share("reported".to_string(), &Compared::has_reported));
     }
-    if any("error_m") {
-        let near = |run: &Cells, m: f64| cell(run, "error_m").parse::<f64>().is_ok_and(|error| error <= m);
-        shares.extend(WITHIN_M.map(|m| share(format!("within {m} m"), &|run| near(run, m))));
+    if any(&|run| run.error_m().is_some()) {
+        let near = |m: f64| share(format!("within {m} m"), &|run| run.error_m().is_some_and(|error| error <= m));
+        shares.extend(WITHIN_M.map(near));
     }
     shares
 }
 
 /// What is compared of all runs of a table, by their seeds.
-fn cells(table: &WrittenTable) -> Result<BTreeMap<u64, Cells>, Unusable> {
+fn compared(table: &WrittenTable) -> Result<BTreeMap<u64, Compared>, Unusable> {
     let unread = |error: csv::Error| {
-        (
-            format!("`{}` cannot be read: {error}", table.path.display()),
-            "name a table of `albacore campaign`".to_string(),
-        )
+        let help = "name a table of `albacore campaign`".to_string();
+        (format!("`{}` cannot be read: {error}", table.path.display()), help)
     };
-    let text: Vec<u8> = table.rows.iter().fold(table.head.clone(), |mut text, (_, line)| {
-        text.extend_from_slice(line);
-        text
-    });
+    let lines = std::iter::once(&table.head).chain(table.rows.iter().map(|(_, line)| line));
+    let text: Vec<u8> = lines.flatten().copied().collect();
     let mut reader = csv::Reader::from_reader(text.as_slice());
     let names = reader.headers().map_err(unread)?.clone();
-    let is_compared = |name: &str| SHARES.contains(&name) || QUANTITIES.iter().any(|(column, ..)| *column == name);
+    let column = |name: &str| names.iter().position(|other| other == name);
+    let (outcome, columns) = (column("outcome"), QUANTITIES.map(|(name, ..)| column(name)));
     let row = |(seed, row): (u64, Result<csv::StringRecord, csv::Error>)| {
         let row = row.map_err(unread)?;
-        let cells = names.iter().zip(&row).filter(|(name, _)| is_compared(name));
-        Ok((seed, cells.map(|(name, cell)| (name.to_string(), cell.to_string())).collect()))
+        let cell = |column: Option<usize>| row.get(column?);
+        let numbers = columns.map(|column| cell(column)?.parse().ok());
+        Ok((seed, Compared { completed: cell(outcome) == Some("completed"), numbers }))
     };
     table.rows.iter().map(|(seed, _)| *seed).zip(reader.records()).map(row).collect()
 }

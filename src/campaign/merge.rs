@@ -123,10 +123,10 @@ impl Merge {
             std::iter::once(first.head.as_slice()).chain(rows)
         };
         let origin = &first.origin;
-        let written = neighbours::lock(&table, out)
-            .and_then(|()| neighbours::write(origin, out))
-            .and_then(|()| Sums::go_on(out, origin.key(), &[], lines()))
-            .and_then(|_| {
+        // Whoever goes on with what is there already owns it from here on.
+        neighbours::lock(&table, out).map_err(|error| not_written(out, error))?;
+        let written =
+            neighbours::write(origin, out).and_then(|()| Sums::go_on(out, origin.key(), &[], lines())).and_then(|_| {
                 let bytes = lines().collect::<Vec<_>>().concat();
                 let added = table.write_all(&bytes).and_then(|()| table.sync_all());
                 added.map_err(|error| TableError::Disk(out.to_path_buf(), error))

@@ -159,11 +159,11 @@ mod tests {
         close(binomial_tail(1_000_000, 500_000), 0.500_398_9);
     }
 
-    /// Newcombe (1998), Table II: the intervals of method 10.
+    /// The intervals of method 10 as another program computes them, written from the same formulas in another language.
     #[test]
     fn the_interval_of_a_difference_is_newcombes() {
         let check = |(both, only_a, only_b, neither): (usize, usize, usize, usize), low: f64, high: f64| {
-            // There the difference is of the first less the second.
+            // The difference here is of the second less the first.
             let share = PairedShare::of(&pairs(both, only_b, only_a, neither));
             assert!((share.low - low).abs() < 5e-5 && (share.high - high).abs() < 5e-5, "{share:?}");
         };

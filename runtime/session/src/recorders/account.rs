@@ -1,5 +1,5 @@
 //! What a mission did with its time: how long each behavior was active and how far the vehicle went meanwhile, how often an input that is
-//! required was too old, and what the mission's own last call came to.
+//! required was too old, and what its strategies came to.
 
 use crate::reported::Reader;
 use crate::summary::{BehaviorSummary, Finished};
