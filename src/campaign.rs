@@ -1,5 +1,6 @@
-//! `albacore campaign`: runs a mission with many seeds, on all cores, into a table.
+//! `albacore campaign`: runs missions with many seeds, on all cores, into a table.
 
+mod cases;
 mod compare;
 mod digested_file;
 mod merge;
@@ -8,23 +9,24 @@ mod provenance;
 pub mod seeds;
 mod summary;
 mod sums;
+mod sweep;
 mod table;
 mod written;
 
 use crate::disk::{self, not_written};
 use crate::exit::Exit;
-use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
-use crate::{interruption, message, output, shell};
-use albacore_session::campaign::{Campaign as MissionCampaign, Delivery, Tally};
-use albacore_session::{Plan, Run};
+use crate::plan::{Faults, warn_of_faults_after};
+use crate::{interruption, message};
+use albacore_session::campaign::{Campaign as MissionCampaign, Delivery, Tallies};
+use cases::{AskedCases, Cases};
 use indicatif::{ProgressBar, ProgressStyle};
-use provenance::Provenance;
-use seeds::{Seeds, Shard};
+use provenance::{CaseOrigin, Provenance};
+use seeds::{Rows, Seeds, Shard};
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use summary::CampaignSummary;
+use sweep::SweepSummary;
 use table::{Foreign, Standing, Table, TableError};
 
 /// Columns for so many reports of each name, at most.
@@ -34,7 +36,7 @@ const LISTED_MAX: usize = 12;
 /// Threads, at most.
 const THREADS_MAX: usize = 4_096;
 
-/// Run a mission with many seeds, or do something with the tables of such.
+/// Run missions with many seeds, or do something with the tables of such.
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Campaigns {
@@ -63,14 +65,11 @@ impl Campaigns {
     }
 }
 
-/// Run a mission with many seeds, on all cores, into a table.
+/// Run missions with many seeds, on all cores, into a table.
 #[derive(clap::Args)]
 struct Asked {
-    /// The script.
-    #[arg(value_name = "MISSION.alb", required = true)]
-    script: Option<PathBuf>,
     #[command(flatten)]
-    choice: Choice,
+    cases: AskedCases,
     #[command(flatten)]
     faults: Faults,
     /// The seeds: `1..100` with both ends, `1..<100` without the last, or one.
@@ -102,69 +101,73 @@ struct Asked {
 impl Asked {
     /// What a campaign needs, where it is there: who asks for tables alone gives none of it.
     fn whole(&self) -> Option<Campaign<'_>> {
-        let (script, seeds, out) = (self.script.as_deref()?, self.seeds?, self.out.as_deref()?);
-        Some(Campaign { script, seeds, out, asked: self })
+        let (seeds, out) = (self.seeds?, self.out.as_deref()?);
+        Some(Campaign { seeds, out, asked: self })
     }
 }
 
-/// A mission that is run with many seeds, on all cores, into a table.
+/// Missions that are run with many seeds, on all cores, into a table.
 struct Campaign<'a> {
-    script: &'a Path,
     seeds: Seeds,
     out: &'a Path,
     asked: &'a Asked,
 }
 
 impl Campaign<'_> {
-    /// Runs all seeds that the table does not have.
+    /// Runs all that the table does not have.
     fn run(&self) -> Exit {
-        match self.asked.shard.map_or(Some(self.seeds), |shard| shard.of(self.seeds)) {
-            Some(seeds) => self.run_seeds(seeds),
-            None => {
-                let message = format!("`--seeds {}` are too few for so many shards: this one has none", self.seeds);
-                message::error(&message, Some("ask for fewer shards"));
-                Exit::Usage
-            }
-        }
-    }
-
-    fn run_seeds(&self, seeds: Seeds) -> Exit {
-        let planned = self.asked.choice.script(self.script).and_then(|script| {
-            let plan = self.asked.choice.plan(&script, self.script)?;
-            let faults = self.asked.faults.read()?;
-            plan.with_faults(&faults).map_err(|error| refused(&error))
+        let Some(seeds) = self.asked.shard.map_or(Some(self.seeds), |shard| shard.of(self.seeds)) else {
+            let message = format!("`--seeds {}` are too few for so many shards: this one has none", self.seeds);
+            message::error(&message, Some("ask for fewer shards"));
+            return Exit::Usage;
+        };
+        let cases = self.asked.cases.read().and_then(|cases| {
+            cases
+                .fit(seeds.count())
+                .map_err(|message| (message, "ask for fewer seeds, or sweep fewer values".to_string()))?;
+            Ok(cases)
         });
-        let plan = match planned {
+        let cases = match cases {
+            Ok(cases) => cases,
+            Err((message, help)) => {
+                message::error(&message, Some(&help));
+                return Exit::Usage;
+            }
+        };
+        let planned = match cases.planned(&self.asked.faults, seeds.first) {
             Ok(planned) => planned,
             Err(exit) => return exit,
         };
-        // What no seed can run is said before a file is begun.
-        if let Err(error) = Run::new(&plan, seeds.first) {
-            return refused(&error);
-        }
-        match self.carry_out(&plan, seeds) {
+        let rows = Rows { seeds, cases: planned.len() as u64 };
+        let campaign = MissionCampaign::new(planned, &cases.columns(), self.asked.reports, seeds.first);
+        match self.carry_out(&campaign, &cases, rows) {
             Ok(exit) => exit,
             Err(trouble) => self.told(trouble),
         }
     }
 
-    fn carry_out(&self, plan: &Plan, seeds: Seeds) -> Result<Exit, TableError> {
-        let campaign = MissionCampaign::new(plan.clone(), self.asked.reports);
-        let (columns, origin) =
-            (campaign.columns(), Provenance::new(plan, &self.asked.choice.set, &self.asked.faults.texts, seeds.first));
+    fn origin(&self, campaign: &MissionCampaign, cases: &Cases, first_seed: u64) -> Provenance {
+        let plans = || campaign.cases().iter().map(|case| &case.plan);
+        let of_case = |(case, plan): (&cases::Case, _)| CaseOrigin::new(plan, &case.choice.set);
+        let origins = cases.all.iter().zip(plans()).map(of_case).collect();
+        Provenance::new(origins, plans(), &self.asked.faults.texts, first_seed)
+    }
+
+    fn carry_out(&self, campaign: &MissionCampaign, cases: &Cases, rows: Rows) -> Result<Exit, TableError> {
+        let (columns, origin) = (campaign.columns(), self.origin(campaign, cases, rows.seeds.first));
         // Who interrupts finds a table that can be gone on with.
         let interrupted = interruption::flag();
         let mut table = if self.asked.resume {
-            Table::resume(self.out, columns, &origin, seeds)?
+            Table::resume(self.out, columns, &origin, rows)?
         } else {
             Table::begin(self.out, columns, &origin)?
         };
         self.warn(&mut table);
-        let bar = self.bar(seeds, table.rows());
+        let bar = self.bar(rows.count(), table.rows());
         let mut trouble = None;
-        let all = campaign.run(table.missing(seeds), self.asked.threads, &interrupted, |delivery| {
+        let all = campaign.run(table.missing(rows), self.asked.threads, &interrupted, |delivery| {
             let done = match delivery {
-                Delivery::Row(row) => table.add(seeds, &row),
+                Delivery::Row(row) => table.add(&row),
                 Delivery::Nothing => table.settle_when_due(),
             };
             if let Err(error) = done {
@@ -184,9 +187,9 @@ impl Campaign<'_> {
         match all {
             Ok(true) => {}
             Ok(false) => {
-                let (path, rows, count) = (self.out.display(), table.rows(), seeds.count());
+                let (path, has, count) = (self.out.display(), table.rows(), rows.count());
                 let help = "the same command with `--resume` goes on from there";
-                message::error(&format!("interrupted: `{path}` has {rows} of {count} runs"), Some(help));
+                message::error(&format!("interrupted: `{path}` has {has} of {count} runs"), Some(help));
                 return Ok(Exit::NotWell);
             }
             Err(error) => {
@@ -194,9 +197,9 @@ impl Campaign<'_> {
                 return Ok(Exit::Failed);
             }
         }
-        let tally = table.tally(columns, &origin)?;
+        let tallies = table.tally(columns, &origin, cases.all.len())?;
         self.warn(&mut table);
-        self.sum_up(plan, seeds, &tally);
+        self.sum_up(campaign, cases, rows.seeds, &tallies);
         Ok(Exit::Well)
     }
 
@@ -224,23 +227,19 @@ impl Campaign<'_> {
         }
     }
 
-    fn sum_up(&self, plan: &Plan, seeds: Seeds, tally: &Tally) {
+    fn sum_up(&self, campaign: &MissionCampaign, cases: &Cases, seeds: Seeds, tallies: &Tallies) {
         interruption::nobody_looks();
-        let run = [
-            vec!["albacore run".to_string(), shell::path(self.script)],
-            self.asked.choice.words(),
-            self.asked.faults.words(),
-        ];
-        let told = CampaignSummary::new(plan, seeds, self.out, tally, &run.concat().join(" "));
+        let told = SweepSummary::new(campaign, cases, &self.asked.faults, seeds, self.out, tallies);
         if self.asked.json {
-            output::print_json(&told);
+            told.print_json();
         } else {
             told.human().print();
         }
-        warn_of_faults_after(plan, tally.longest_s());
-        let (crowded, most) = tally.crowded();
+        warn_of_faults_after(campaign.cases().iter().map(|case| &case.plan), tallies.longest_s());
+        let (crowded, most) = tallies.crowded();
         if crowded > 0 {
-            let what = format!("{crowded} of {} runs reported more often than the table has columns for", tally.runs());
+            let what =
+                format!("{crowded} of {} runs reported more often than the table has columns for", tallies.runs());
             let help = match most <= REPORTS_MAX {
                 true => format!(
                     "with `--reports {most}` there is room for all: it counts the reports of one name, and fewer may do"
@@ -305,11 +304,11 @@ impl Campaign<'_> {
         format!("{known}{again}{then}")
     }
 
-    fn bar(&self, seeds: Seeds, rows: u64) -> ProgressBar {
+    fn bar(&self, count: u64, rows: u64) -> ProgressBar {
         if self.asked.json || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
         }
-        let bar = ProgressBar::new(seeds.count()).with_position(rows);
+        let bar = ProgressBar::new(count).with_position(rows);
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} to go")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);

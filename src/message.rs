@@ -130,6 +130,21 @@ fn plain(finding: &Diagnostic, sources: &Sources) -> String {
     format!("{}\n\n  {sign} {message}    {place}{help}\n", finding.code)
 }
 
+/// Findings that were printed already: a script that is read again has the same again.
+#[derive(Default)]
+pub struct Said(BTreeSet<(String, u32, u32, String)>);
+
+impl Said {
+    /// Those of findings that were not printed yet, which they now are taken to be.
+    pub fn news(&mut self, findings: &[Diagnostic], sources: &Sources) -> Vec<Diagnostic> {
+        let is_new = |finding: &&Diagnostic| {
+            let Span { file, start, end } = finding.span();
+            self.0.insert((sources.get(file).name.to_string(), start, end, finding.message.clone()))
+        };
+        findings.iter().filter(is_new).cloned().collect()
+    }
+}
+
 /// Prints findings, in order, and how many there are.
 pub fn findings(findings: &[Diagnostic], sources: &Sources) {
     let theme = match (std::io::stderr().is_terminal(), std::env::var_os("NO_COLOR")) {

@@ -1,10 +1,12 @@
 //! From the words of a command line to a mission that can run; what stands in the way is said here.
 
 use crate::exit::Exit;
-use crate::{message, shell};
+use crate::message::{self, Said};
+use crate::shell;
 use albacore_session::{FileError, Plan, PlanError, Script, SourceDigest, Wanted};
 use albacore_trace::Digest;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A script that the verb only looks at, or a module of the standard library by its bare name.
@@ -14,12 +16,18 @@ pub fn script_or_module(path: &Path) -> Result<Script, Exit> {
 
 /// What was loaded, if it can be used; else what is wrong is said.
 pub fn sound(loaded: Result<Script, FileError>) -> Result<Script, Exit> {
+    sound_but_said(loaded, &mut Said::default())
+}
+
+/// The same, of a script that may have been read before.
+fn sound_but_said(loaded: Result<Script, FileError>, said: &mut Said) -> Result<Script, Exit> {
     let script = loaded.map_err(|error| {
         message::error(&error.message, error.help.as_deref());
         Exit::Usage
     })?;
-    message::findings(&script.findings, &script.sources);
-    message::more(&script.findings);
+    let findings = said.news(&script.findings, &script.sources);
+    message::findings(&findings, &script.sources);
+    message::more(&findings);
     if script.is_sound() { Ok(script) } else { Err(Exit::Script) }
 }
 
@@ -81,7 +89,7 @@ impl ScriptDigest {
 }
 
 /// Which mission of a script, in which world, with what changed: what every verb that drives takes.
-#[derive(clap::Args)]
+#[derive(Clone, Default, clap::Args)]
 pub struct Choice {
     /// The mission; else the one named like the file, else the only one.
     #[arg(long)]
@@ -98,6 +106,15 @@ impl Choice {
     /// Loads the script, or says what is wrong and how the program ends.
     pub fn script(&self, path: &Path) -> Result<Script, Exit> {
         sound(albacore_session::load_for(path, &self.wanted()))
+    }
+
+    /// Loads the script and plans the mission in a simulated world, or says what stands in the way. What was said before is not said again.
+    pub fn planned(&self, path: &Path, said: &mut Said) -> Result<Plan, Exit> {
+        let script = sound_but_said(albacore_session::load_for(path, &self.wanted()), said)?;
+        let plan = Plan::wanted(&script, &path.display().to_string(), &self.wanted());
+        let plan = plan.map_err(|error| refused(&error))?;
+        message::findings(&said.news(&plan.warnings, &script.sources), &script.sources);
+        Ok(plan)
     }
 
     /// The words of a command that chooses the same: `--in duck_2003 --set lambda=6s`.
@@ -144,11 +161,14 @@ impl Faults {
 }
 
 /// Warns of what was to go wrong and did not, since the run, or the longest of several, lasted only so long, s.
-pub fn warn_of_faults_after(plan: &Plan, lasted: f64) {
-    for fault in plan.faults_after(lasted) {
-        let what = format!("`{fault}` never began: from {} s, and the mission lasted {lasted:.1} s", fault.from);
-        message::warning(&what, "let it begin earlier, with `from`");
-    }
+pub fn warn_of_faults_after<'a>(plans: impl Iterator<Item = &'a Plan>, lasted: f64) {
+    let never = plans
+        .flat_map(|plan| plan.faults_after(lasted))
+        .map(|fault| format!("`{fault}` never began: from {} s, and the mission lasted {lasted:.1} s", fault.from));
+    never
+        .collect::<BTreeSet<String>>()
+        .iter()
+        .for_each(|what| message::warning(what, "let it begin earlier, with `from`"));
 }
 
 /// Says why a script cannot be run as asked.

@@ -119,7 +119,7 @@ impl Run {
         }
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(printer.wall_s());
-        warn_of_faults_after(&plan, summary.sim_time_s);
+        warn_of_faults_after(std::iter::once(&plan), summary.sim_time_s);
         let left = kept.finish(&run, &summary);
         left.tell_troubles();
         printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, &left);

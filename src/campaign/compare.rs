@@ -1,5 +1,6 @@
-//! `albacore campaign compare`: two tables of one world, seed by seed.
+//! `albacore campaign compare`: two tables of one world, or the cases of one, seed by seed.
 
+use super::provenance::CaseOrigin;
 use super::written::{Unusable, WrittenTable};
 use crate::exit::Exit;
 use crate::output::Lines;
@@ -7,22 +8,24 @@ use crate::{message, output};
 use albacore_session::campaign::{MEDIAN_INTERVAL, PairedDifference, PairedShare, SHARE_INTERVAL, TEST, WITHIN_M};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Compare two tables, seed by seed.
+/// Compare two tables, or the cases of one, seed by seed.
 ///
-/// The tables are of one world, and of missions, parameters, vehicles or faults that differ: the same seed is the same water in both. Shares are
+/// What is compared is of one world, and of missions, parameters, vehicles or faults that differ: the same seed is the same water in both. Shares are
 /// compared by McNemar's test and Newcombe's interval for paired shares; errors, times and ways by the median of their
-/// differences. Tables of other water, bottom or plume, of different versions, or without a seed in common, are refused.
+/// differences. Of one table each case is compared with the first of its world. Of two tables one may have a single case, with which
+/// all of the other are compared; else they have the same cases. Tables of other water, bottom or plume, of different versions, or
+/// without a seed in common, are refused.
 #[derive(clap::Args)]
 pub struct Compare {
     /// One table.
     #[arg(value_name = "A.csv")]
     a: PathBuf,
-    /// The other: differences are what it has more.
+    /// The other: differences are what it has more. Without it the cases of the one are compared.
     #[arg(value_name = "B.csv")]
-    b: PathBuf,
-    /// Print the comparison as one JSON object on standard output.
+    b: Option<PathBuf>,
+    /// Print the comparisons as one JSON object on standard output.
     #[arg(long)]
     json: bool,
 }
@@ -39,25 +42,61 @@ const QUANTITIES: [(&str, &str, &str); 5] = [
 /// A smaller probability is told as this.
 const P_MIN: f64 = 0.001;
 
-/// What two tables come to together.
+/// All that is compared, as `--json` prints it.
+#[derive(Serialize)]
+struct Comparisons {
+    comparisons: Vec<Comparison>,
+    share_interval: &'static str,
+    median_interval: &'static str,
+    test: &'static str,
+}
+
+/// A table, and what is compared of the runs of each of its cases, by their seeds.
+struct Side {
+    table: WrittenTable,
+    cases: Vec<BTreeMap<u64, Compared>>,
+}
+
+/// A case of a table.
+#[derive(Clone, Copy)]
+struct CaseOf<'a> {
+    of: &'a Side,
+    case: usize,
+}
+
+impl<'a> CaseOf<'a> {
+    fn origin(self) -> &'a CaseOrigin {
+        &self.of.table.origin.cases()[self.case]
+    }
+
+    fn runs(self) -> &'a BTreeMap<u64, Compared> {
+        &self.of.cases[self.case]
+    }
+
+    /// Which it is, where its table has several.
+    fn number(self) -> Option<usize> {
+        (self.of.table.origin.cases().len() > 1).then_some(self.case + 1)
+    }
+}
+
+/// What two cases come to together.
 #[derive(Serialize)]
 struct Comparison {
-    a: Side,
-    b: Side,
+    a: Told,
+    b: Told,
     /// Seeds that both have.
     pairs: usize,
     /// Whether they are of scripts that differ.
     scripts_differ: bool,
     shares: Vec<ShareOf>,
     differences: Vec<DifferenceOf>,
-    share_interval: &'static str,
-    median_interval: &'static str,
-    test: &'static str,
 }
 
 #[derive(Serialize)]
-struct Side {
+struct Told {
     table: String,
+    /// Which of its cases, where it has several.
+    case: Option<usize>,
     /// Mission, scenario, and what was changed of them.
     of: String,
     /// Seeds that the other has not.
@@ -98,12 +137,11 @@ impl Compared {
 }
 
 impl Compare {
-    /// Prints the comparison, or says why there is none.
+    /// Prints the comparisons, or says why there are none.
     pub fn run(&self) -> Exit {
-        let read = || Ok((WrittenTable::read(&self.a)?, WrittenTable::read(&self.b)?));
-        match read().and_then(|(a, b)| Comparison::of(&a, &b)) {
-            Ok(comparison) if self.json => output::print_json(&comparison),
-            Ok(comparison) => comparison.human().print(),
+        match self.comparisons() {
+            Ok(comparisons) if self.json => output::print_json(&comparisons),
+            Ok(comparisons) => comparisons.human().print(),
             Err((message, help)) => {
                 message::error(&message, Some(&help));
                 return Exit::Usage;
@@ -111,52 +149,102 @@ impl Compare {
         }
         Exit::Well
     }
+
+    fn comparisons(&self) -> Result<Comparisons, Unusable> {
+        let a = Side::read(&self.a)?;
+        let b = self.b.as_deref().map(Side::read).transpose()?;
+        let pairs = match &b {
+            None => of_one(&a)?,
+            Some(b) => of_two(&a, b)?,
+        };
+        let comparisons = pairs.into_iter().map(|(a, b)| Comparison::of(a, b)).collect::<Result<_, _>>()?;
+        Ok(Comparisons { comparisons, share_interval: SHARE_INTERVAL, median_interval: MEDIAN_INTERVAL, test: TEST })
+    }
+}
+
+/// The cases of a table, each but the first of its world with that.
+fn of_one(side: &Side) -> Result<Vec<(CaseOf<'_>, CaseOf<'_>)>, Unusable> {
+    let cases = side.table.origin.cases();
+    let pair = |(case, origin): (usize, &CaseOrigin)| {
+        let first = cases[..case].iter().position(|first| first.other_world(origin).is_none())?;
+        Some((CaseOf { of: side, case: first }, CaseOf { of: side, case }))
+    };
+    let pairs: Vec<_> = cases.iter().enumerate().filter_map(pair).collect();
+    if !pairs.is_empty() {
+        return Ok(pairs);
+    }
+    let shown = side.table.path.display();
+    Err(match cases.len() {
+        1 => (format!("`{shown}` has one case, and nothing to compare it with"), "name another table".to_string()),
+        _ => {
+            let message = format!("no two cases of `{shown}` are of one world");
+            (message, "only in one world the same seed is the same water: sweep a parameter of the mission".to_string())
+        }
+    })
+}
+
+/// The cases of two tables that are compared: all with the only one of the other table, or each with the same.
+fn of_two<'a>(a: &'a Side, b: &'a Side) -> Result<Vec<(CaseOf<'a>, CaseOf<'a>)>, Unusable> {
+    let (of_a, of_b) = (a.cases.len(), b.cases.len());
+    let pair = |in_a: usize, in_b: usize| (CaseOf { of: a, case: in_a }, CaseOf { of: b, case: in_b });
+    match (of_a, of_b) {
+        (1, _) => Ok((0..of_b).map(|case| pair(0, case)).collect()),
+        (_, 1) => Ok((0..of_a).map(|case| pair(case, 0)).collect()),
+        _ => {
+            let told = |side: &Side| side.table.origin.cases().iter().map(CaseOrigin::told).collect::<Vec<_>>();
+            if told(a) != told(b) {
+                let message = format!("`{}` and `{}` have other cases", a.table.path.display(), b.table.path.display());
+                return Err((message, "compare tables of the same cases, or of one case with any".to_string()));
+            }
+            Ok((0..of_a).map(|case| pair(case, case)).collect())
+        }
+    }
 }
 
 impl Comparison {
-    fn of(a: &WrittenTable, b: &WrittenTable) -> Result<Self, Unusable> {
-        if let Some(why) = a.origin.other_world(&b.origin) {
+    fn of(a: CaseOf, b: CaseOf) -> Result<Self, Unusable> {
+        let (origin_a, origin_b) = (a.origin(), b.origin());
+        let (first, second) = (a.runs(), b.runs());
+        let why = origin_a.other_world(origin_b).or_else(|| a.of.table.origin.other_version(&b.of.table.origin));
+        if let Some(why) = why {
             let help = "only in one world the same seed is the same water: run both in it";
             return Err((format!("the tables cannot be compared: {why}"), help.to_string()));
         }
-        let (first, second) = (compared(a)?, compared(b)?);
         let pairs: Vec<_> = first.iter().filter_map(|(seed, a)| Some((a, second.get(seed)?))).collect();
         if pairs.is_empty() {
-            let seeds = |table: &WrittenTable| format!("{}..{}", table.first(), table.last());
+            let seeds = |case: CaseOf| format!("{}..{}", case.of.table.first(), case.of.table.last());
             let message = format!("the tables have no seed in common: {}, and {}", seeds(a), seeds(b));
             return Err((message, "run both with the same `--seeds`".to_string()));
         }
-        let side = |table: &WrittenTable| Side {
-            table: table.path.display().to_string(),
-            of: table.origin.told(),
-            left_out: table.rows.len() - pairs.len(),
+        let side = |case: CaseOf, origin: &CaseOrigin, rows: usize| Told {
+            table: case.of.table.path.display().to_string(),
+            case: case.number(),
+            of: origin.told() + &case.of.table.origin.faults(),
+            left_out: rows - pairs.len(),
         };
         let difference = |(i, (_, what, unit)): (usize, (&str, &'static str, &'static str))| {
             let numbers: Vec<_> = pairs.iter().filter_map(|(a, b)| a.numbers[i].zip(b.numbers[i])).collect();
             PairedDifference::of(&numbers).map(|difference| DifferenceOf { what, unit, difference })
         };
         Ok(Comparison {
-            a: side(a),
-            b: side(b),
+            a: side(a, origin_a, first.len()),
+            b: side(b, origin_b, second.len()),
             pairs: pairs.len(),
-            scripts_differ: a.origin.scripts_differ(&b.origin),
+            scripts_differ: origin_a.scripts_differ(origin_b),
             shares: shares(&pairs),
             differences: QUANTITIES.into_iter().enumerate().filter_map(difference).collect(),
-            share_interval: SHARE_INTERVAL,
-            median_interval: MEDIAN_INTERVAL,
-            test: TEST,
         })
     }
 
-    fn human(&self) -> Lines {
-        let mut lines = Lines::default();
-        for (name, Side { table, of, left_out }) in [("A", &self.a), ("B", &self.b)] {
+    fn tell(&self, lines: &mut Lines) {
+        for (name, Told { table, case, of, left_out }) in [("A", &self.a), ("B", &self.b)] {
             let more = match left_out {
                 0 => String::new(),
                 1 => ", one seed of which the other has not".to_string(),
                 seeds => format!(", {seeds} seeds of which the other has not"),
             };
-            lines.add(&format!("{name}  {of}  ({table}{more})"));
+            let case = case.map(|case| format!(", case {case}")).unwrap_or_default();
+            lines.add(&format!("{name}  {of}  ({table}{case}{more})"));
         }
         let scripts = if self.scripts_differ { "; the scripts differ" } else { "" };
         let seeds = if self.pairs == 1 { "1 seed".to_string() } else { format!("{} seeds", self.pairs) };
@@ -178,6 +266,18 @@ impl Comparison {
             let difference = format!("{difference:+.1}{interval}");
             let pairs = if *pairs == self.pairs { String::new() } else { format!("of {pairs} pairs") };
             lines.add(format!("  {what:<13} {a:>8.1}  {b:>8.1}  {unit:<1} {difference:<25} {pairs}").trim_end());
+        }
+    }
+}
+
+impl Comparisons {
+    fn human(&self) -> Lines {
+        let mut lines = Lines::default();
+        for (i, comparison) in self.comparisons.iter().enumerate() {
+            if i > 0 {
+                lines.add("");
+            }
+            comparison.tell(&mut lines);
         }
         lines.add(&format!("  shares: {}; p: {}", self.share_interval, self.test));
         lines.add(&format!("  errors, times and ways are medians; intervals: {}", self.median_interval));
@@ -203,23 +303,29 @@ fn shares(pairs: &[(&Compared, &Compared)]) -> Vec<ShareOf> {
     shares
 }
 
-/// What is compared of all runs of a table, by their seeds.
-fn compared(table: &WrittenTable) -> Result<BTreeMap<u64, Compared>, Unusable> {
-    let unread = |error: csv::Error| {
-        let help = "name a table of `albacore campaign`".to_string();
-        (format!("`{}` cannot be read: {error}", table.path.display()), help)
-    };
-    let lines = std::iter::once(&table.head).chain(table.rows.iter().map(|(_, line)| line));
-    let text: Vec<u8> = lines.flatten().copied().collect();
-    let mut reader = csv::Reader::from_reader(text.as_slice());
-    let names = reader.headers().map_err(unread)?.clone();
-    let column = |name: &str| names.iter().position(|other| other == name);
-    let (outcome, columns) = (column("outcome"), QUANTITIES.map(|(name, ..)| column(name)));
-    let row = |(seed, row): (u64, Result<csv::StringRecord, csv::Error>)| {
-        let row = row.map_err(unread)?;
-        let cell = |column: Option<usize>| row.get(column?);
-        let numbers = columns.map(|column| cell(column)?.parse().ok());
-        Ok((seed, Compared { completed: cell(outcome) == Some("completed"), numbers }))
-    };
-    table.rows.iter().map(|(seed, _)| *seed).zip(reader.records()).map(row).collect()
+impl Side {
+    /// Reads a table.
+    fn read(path: &Path) -> Result<Self, Unusable> {
+        let table = WrittenTable::read(path)?;
+        let unread = |error: csv::Error| {
+            let help = "name a table of `albacore campaign`".to_string();
+            (format!("`{}` cannot be read: {error}", path.display()), help)
+        };
+        let lines = std::iter::once(&table.head).chain(table.rows.iter().map(|row| &row.line));
+        let text: Vec<u8> = lines.flatten().copied().collect();
+        let mut reader = csv::Reader::from_reader(text.as_slice());
+        let names = reader.headers().map_err(unread)?.clone();
+        let column = |name: &str| names.iter().position(|other| other == name);
+        let (outcome, columns) = (column("outcome"), QUANTITIES.map(|(name, ..)| column(name)));
+        let mut cases: Vec<BTreeMap<u64, Compared>> = Vec::new();
+        cases.resize_with(table.origin.cases().len(), BTreeMap::new);
+        for (written, row) in table.rows.iter().zip(reader.records()) {
+            let row = row.map_err(unread)?;
+            let cell = |column: Option<usize>| row.get(column?);
+            let numbers = columns.map(|column| cell(column)?.parse().ok());
+            let compared = Compared { completed: cell(outcome) == Some("completed"), numbers };
+            cases[written.case].insert(written.seed, compared);
+        }
+        Ok(Side { table, cases })
+    }
 }

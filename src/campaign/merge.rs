@@ -30,6 +30,9 @@ pub struct Merge {
     seeds: Option<Seeds>,
 }
 
+/// What to do about rows that are missing.
+const GO_ON: &str = "run what is missing: the campaign of a part goes on with `--resume`";
+
 impl Merge {
     /// Writes the table, or says why not.
     pub fn run(&self) -> Exit {
@@ -68,11 +71,14 @@ impl Merge {
                 let message = format!("`{}` has other columns than `{}`", name(part), name(first));
                 return Err((message, "give each part the same `--reports`".to_string()));
             }
+            if !part.is_even() {
+                let message = format!("`{}` ends before it has all cases of seed {}", name(part), part.last());
+                return Err((message, GO_ON.to_string()));
+            }
         }
         let seeds = |first: u64, last: u64| {
             if first == last { format!("seed {first} is") } else { format!("seeds {first}..{last} are") }
         };
-        let run = "run what is missing: the campaign of a part goes on with `--resume`";
         for pair in parts.windows(2) {
             let (before, after) = (&pair[0], &pair[1]);
             if after.first() <= before.last() {
@@ -84,17 +90,17 @@ impl Merge {
                 let missing = seeds(before.last() + 1, after.first() - 1);
                 return Err((
                     format!("{missing} in no part, between `{}` and `{}`", name(before), name(after)),
-                    run.to_string(),
+                    GO_ON.to_string(),
                 ));
             }
         }
         let (Some(wanted), Some(last)) = (self.seeds, parts.last()) else { return Ok(()) };
         if first.first() > wanted.first {
-            return Err((format!("{} in no part", seeds(wanted.first, first.first() - 1)), run.to_string()));
+            return Err((format!("{} in no part", seeds(wanted.first, first.first() - 1)), GO_ON.to_string()));
         }
         if last.last() < wanted.last {
             let message = format!("{} in no part: `{}` ends before", seeds(last.last() + 1, wanted.last), name(last));
-            return Err((message, run.to_string()));
+            return Err((message, GO_ON.to_string()));
         }
         if first.first() < wanted.first || last.last() > wanted.last {
             let message = format!("the parts have seeds {}..{}, not {wanted}", first.first(), last.last());
@@ -119,7 +125,7 @@ impl Merge {
             table => table.map_err(|error| not_written(out, TableError::Disk(out.to_path_buf(), error)))?,
         };
         let lines = || {
-            let rows = parts.iter().flat_map(|part| &part.rows).map(|(_, line)| line.as_slice());
+            let rows = parts.iter().flat_map(|part| &part.rows).map(|row| row.line.as_slice());
             std::iter::once(first.head.as_slice()).chain(rows)
         };
         let origin = &first.origin;

@@ -13,37 +13,112 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Provenance {
     albacore: String,
-    mission: String,
-    scenario: String,
-    /// The script that the scenario stands in: others may have one of that name.
-    scenario_script: Option<ScriptDigest>,
-    set: Vec<String>,
     fault: Vec<String>,
+    /// The scripts of all cases, and what they read.
     sources: Vec<ScriptDigest>,
-    /// The digest of the scenario's water, bottom and plume.
-    world: String,
+    cases: Vec<CaseOrigin>,
     /// The first seed; the rows of the others follow.
     first_seed: u64,
     /// The digest of all before it.
     sum: String,
 }
 
-impl Provenance {
-    /// The origin of what a plan gives. `set` are the texts of the parameters that were changed, `fault`
-    /// those of what was made to go wrong.
-    pub fn new(plan: &Plan, set: &[String], fault: &[String], first_seed: u64) -> Self {
-        Provenance {
-            albacore: env!("CARGO_PKG_VERSION").to_string(),
+/// What a case was made from: a campaign without a sweep has one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CaseOrigin {
+    mission: String,
+    scenario: String,
+    /// The script that the scenario stands in: others may have one of that name.
+    scenario_script: Option<ScriptDigest>,
+    /// The parameters that were changed.
+    set: Vec<String>,
+    /// The digest of the scripts, and of what they read.
+    scripts: String,
+    /// The digest of the scenario's water, bottom and plume.
+    world: String,
+}
+
+impl CaseOrigin {
+    /// That of what a plan gives. `set` are the texts of the parameters that were changed.
+    pub fn new(plan: &Plan, set: &[String]) -> Self {
+        let mut digest = Digest::new();
+        scripts(plan).iter().for_each(|script| digest.text(&script.digest));
+        CaseOrigin {
             mission: plan.program.mission.name.clone(),
             scenario: plan.scenario_name.clone(),
             scenario_script: world_script(plan),
             set: set.to_vec(),
-            fault: fault.to_vec(),
-            sources: scripts(plan),
+            scripts: digest.to_string(),
             world: format!("{:016x}", plan.world_digest()),
-            first_seed,
-            sum: String::new(),
         }
+    }
+
+    /// The mission, the scenario, and what was changed of them, in the words of a command: `duck_single in duck_2003 --set lambda=6s`.
+    pub fn told(&self) -> String {
+        let set = self.set.iter().map(|text| format!(" --set {text}"));
+        format!("{} in {}{}", self.mission, self.scenario, set.collect::<String>())
+    }
+
+    /// Why runs of one seed are not of one water, if they are not.
+    pub fn other_world(&self, other: &CaseOrigin) -> Option<String> {
+        (self.world != other.world).then(|| match self.scenario == other.scenario {
+            true => {
+                format!(
+                    "the water, the bottom or the plume of `{}` is another in the one than in the other",
+                    self.scenario
+                )
+            }
+            false => format!(
+                "one is of the scenario `{}`, the other of `{}`, and their worlds differ",
+                self.scenario, other.scenario
+            ),
+        })
+    }
+
+    /// Whether the scripts that it is of, or the files that these read, are others.
+    pub fn scripts_differ(&self, other: &CaseOrigin) -> bool {
+        self.scripts != other.scripts
+    }
+
+    /// What of this is otherwise now, if anything is but a script.
+    fn difference(&self, now: &CaseOrigin) -> Option<String> {
+        let changed = |what: &str, then: &str, now: &str| Some(format!("was begun with {what}`{then}`, not `{now}`"));
+        if self.mission != now.mission {
+            return changed("the mission ", &self.mission, &now.mission);
+        }
+        if self.scenario != now.scenario {
+            return changed("the scenario ", &self.scenario, &now.scenario);
+        }
+        if self.set != now.set {
+            return changed("", &options("--set", &self.set), &options("--set", &now.set));
+        }
+        None
+    }
+
+    /// Whether its scenario stands in a script that was changed, or in another.
+    fn other_scenario_script(&self, now: &CaseOrigin) -> Option<String> {
+        let (then, now) = (self.scenario_script.as_ref()?, now.scenario_script.as_ref()?);
+        (then.digest != now.digest)
+            .then(|| format!("was begun with the scenario `{}` of `{}`, not `{}`", self.scenario, then.name, now.name))
+    }
+}
+
+impl Provenance {
+    /// The origin of a table with these cases. `fault` are the texts of what was made to go wrong.
+    pub fn new<'a>(
+        cases: Vec<CaseOrigin>,
+        plans: impl Iterator<Item = &'a Plan>,
+        fault: &[String],
+        first_seed: u64,
+    ) -> Self {
+        let mut sources: Vec<ScriptDigest> = Vec::new();
+        for source in plans.flat_map(scripts) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        let (albacore, fault) = (env!("CARGO_PKG_VERSION").to_string(), fault.to_vec());
+        Provenance { albacore, fault, sources, cases, first_seed, sum: String::new() }
     }
 
     /// The origin of a table, as a file beside it holds it.
@@ -54,20 +129,13 @@ impl Provenance {
     /// All of it that [`Provenance::difference`] compares, in short: no row of another campaign has a checksum that fits.
     pub fn key(&self) -> OriginKey {
         let digests = |scripts: &[ScriptDigest]| scripts.iter().map(|script| script.digest.clone()).collect::<Vec<_>>();
-        let Provenance {
-            albacore,
-            mission,
-            scenario,
-            scenario_script,
-            set,
-            fault,
-            sources,
-            world: _,
-            first_seed,
-            sum: _,
-        } = self;
-        let (own, of_scenario) = (digests(sources), digests(scenario_script.as_slice()));
-        let told = serde_json::json!([albacore, mission, scenario, first_seed, set, fault, own, of_scenario]);
+        let Provenance { albacore, fault, sources, cases, first_seed, sum: _ } = self;
+        let case = |case: &CaseOrigin| {
+            let CaseOrigin { mission, scenario, scenario_script, set, scripts, world: _ } = case;
+            serde_json::json!([mission, scenario, set, scripts, digests(scenario_script.as_slice())])
+        };
+        let cases: Vec<_> = cases.iter().map(case).collect();
+        let told = serde_json::json!([albacore, first_seed, fault, digests(sources), cases]);
         let mut key = Digest::new();
         key.bytes(told.to_string().as_bytes());
         OriginKey(key.to_string())
@@ -83,35 +151,20 @@ impl Provenance {
         self.first_seed
     }
 
-    /// The mission, the scenario, and what was changed of them, in the words of a command: `duck_single in duck_2003 --set lambda=6s`.
-    pub fn told(&self) -> String {
-        let set = self.set.iter().map(|text| format!(" --set {text}"));
-        let fault = self.fault.iter().map(|text| format!(" --fault {text}"));
-        format!("{} in {}{}", self.mission, self.scenario, set.chain(fault).collect::<String>())
+    /// What the cases were made from, in the order of their numbers.
+    pub fn cases(&self) -> &[CaseOrigin] {
+        &self.cases
     }
 
-    /// Why runs of one seed are not of one water, if they are not.
-    pub fn other_world(&self, other: &Provenance) -> Option<String> {
-        if self.world != other.world {
-            return Some(match self.scenario == other.scenario {
-                true => format!(
-                    "the water, the bottom or the plume of `{}` is another in the one than in the other",
-                    self.scenario
-                ),
-                false => format!(
-                    "one is of the scenario `{}`, the other of `{}`, and their worlds differ",
-                    self.scenario, other.scenario
-                ),
-            });
-        }
+    /// What was made to go wrong, in the words of a command: ` --fault …`.
+    pub fn faults(&self) -> String {
+        self.fault.iter().map(|text| format!(" --fault {text}")).collect()
+    }
+
+    /// Why no runs of these two can be compared, if so.
+    pub fn other_version(&self, other: &Provenance) -> Option<String> {
         (self.albacore != other.albacore)
             .then(|| format!("one is of albacore {}, the other of {}", self.albacore, other.albacore))
-    }
-
-    /// Whether the scripts that it is of, or the files that these read, are others.
-    pub fn scripts_differ(&self, other: &Provenance) -> bool {
-        let digests = |of: &Provenance| of.sources.iter().map(|source| source.digest.clone()).collect::<Vec<_>>();
-        digests(self) != digests(other)
     }
 
     /// What of this is otherwise now, if anything is.
@@ -124,14 +177,19 @@ impl Provenance {
     /// The same whatever the seeds are.
     pub fn other_campaign(&self, now: &Provenance) -> Option<String> {
         let changed = |what: &str, then: &str, now: &str| Some(format!("was begun with {what}`{then}`, not `{now}`"));
-        if self.mission != now.mission {
-            return changed("the mission ", &self.mission, &now.mission);
+        let count = |cases: &[CaseOrigin]| {
+            if cases.len() == 1 { "1 case".to_string() } else { format!("{} cases", cases.len()) }
+        };
+        if self.cases.len() != now.cases.len() {
+            return Some(format!("was begun with {}, not {}", count(&self.cases), count(&now.cases)));
         }
-        if self.scenario != now.scenario {
-            return changed("the scenario ", &self.scenario, &now.scenario);
-        }
-        if self.set != now.set {
-            return changed("", &options("--set", &self.set), &options("--set", &now.set));
+        let in_case = |number: usize, what: String| {
+            if self.cases.len() == 1 { what } else { format!("{what}, in case {number}") }
+        };
+        let mut cases = (1..).zip(self.cases.iter().zip(&now.cases));
+        let case = cases.clone().find_map(|(number, (then, now))| Some(in_case(number, then.difference(now)?)));
+        if case.is_some() {
+            return case;
         }
         if self.fault != now.fault {
             return changed("", &options("--fault", &self.fault), &options("--fault", &now.fault));
@@ -144,12 +202,13 @@ impl Provenance {
         if let Some((_, now)) = otherwise {
             return Some(format!("was begun before `{}` was changed", now.name));
         }
-        if let (Some(then), Some(now)) = (&self.scenario_script, &now.scenario_script)
-            && then.digest != now.digest
-        {
-            return changed(&format!("the scenario `{}` of ", self.scenario), &then.name, &now.name);
+        let scenario =
+            cases.clone().find_map(|(number, (then, now))| Some(in_case(number, then.other_scenario_script(now)?)));
+        if scenario.is_some() {
+            return scenario;
         }
-        (self.sources.len() != now.sources.len()).then(|| "was begun with other imports".to_string())
+        let are_others = cases.any(|(_, (then, now))| then.scripts_differ(now));
+        (are_others || self.sources.len() != now.sources.len()).then(|| "was begun with other imports".to_string())
     }
 }
 

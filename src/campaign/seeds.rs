@@ -1,7 +1,7 @@
 //! The seeds of a campaign as they are written: `7`, `1..100` with both ends, `1..<100` without the last.
 
+use albacore_session::campaign::RowOrder;
 use std::fmt;
-use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// A campaign has this many runs at most: what is made of its rows is held in memory.
@@ -20,11 +20,6 @@ impl Seeds {
     /// How many there are.
     pub fn count(self) -> u64 {
         self.last - self.first + 1
-    }
-
-    /// All of them but some at the beginning.
-    pub fn after(self, some: u64) -> RangeInclusive<u64> {
-        self.first + some..=self.last
     }
 }
 
@@ -50,6 +45,27 @@ impl FromStr for Seeds {
             return Err(format!("a campaign has {RUNS_MAX} runs at most"));
         }
         Ok(Seeds { first, last })
+    }
+}
+
+/// The rows of a table: for each seed one of each case.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows {
+    /// The seeds.
+    pub seeds: Seeds,
+    /// How many cases are run with each, one at least.
+    pub cases: u64,
+}
+
+impl Rows {
+    /// How many there are.
+    pub fn count(self) -> u64 {
+        self.seeds.count() * self.cases
+    }
+
+    /// Which run stands in which.
+    pub fn order(self) -> RowOrder {
+        RowOrder { first_seed: self.seeds.first, cases: self.cases }
     }
 }
 

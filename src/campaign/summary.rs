@@ -1,4 +1,4 @@
-//! What a campaign comes to, as a person and as a program reads it.
+//! What the runs of one mission come to, as a person and as a program reads it.
 
 use super::seeds::Seeds;
 use crate::output::Lines;
@@ -10,43 +10,54 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Results, and causes of misses, that a person is shown.
-const LISTED_MAX: usize = 8;
+pub const LISTED_MAX: usize = 8;
 
-/// The summary, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
+/// The summary of one mission, as `--json` prints it. Where nothing was reported there are no quantiles; without a source, no errors.
 #[derive(Serialize)]
 pub struct CampaignSummary<'a> {
-    mission: &'a str,
-    scenario: &'a str,
-    seeds: [u64; 2],
-    table: String,
-    runs: usize,
-    outcomes: &'a BTreeMap<String, usize>,
-    results: &'a BTreeMap<String, usize>,
-    reported: Share,
-    within: Option<[Within; 3]>,
-    interval: &'static str,
-    error_m: Option<Quantiles>,
-    error_along_m: Option<Quantiles>,
-    error_across_m: Option<Quantiles>,
-    report_t_s: Option<Quantiles>,
-    sim_time_s: Option<Quantiles>,
-    path_length_m: Option<Quantiles>,
-    quantile: &'static str,
-    missed: Vec<Cause<'a>>,
+    pub(super) mission: &'a str,
+    pub(super) scenario: &'a str,
+    pub(super) seeds: [u64; 2],
+    pub(super) table: String,
+    pub(super) runs: usize,
+    pub(super) outcomes: &'a BTreeMap<String, usize>,
+    pub(super) results: &'a BTreeMap<String, usize>,
+    pub(super) reported: Share,
+    pub(super) within: Option<[Within; 3]>,
+    pub(super) interval: &'static str,
+    pub(super) error_m: Option<Quantiles>,
+    pub(super) error_along_m: Option<Quantiles>,
+    pub(super) error_across_m: Option<Quantiles>,
+    pub(super) report_t_s: Option<Quantiles>,
+    pub(super) sim_time_s: Option<Quantiles>,
+    pub(super) path_length_m: Option<Quantiles>,
+    pub(super) quantile: &'static str,
+    pub(super) missed: Vec<Cause<'a>>,
 }
 
 /// Why runs missed what they were for, and how to look at one of them.
 #[derive(Serialize)]
-struct Cause<'a> {
+pub struct Cause<'a> {
     why: &'a str,
     #[serde(flatten)]
-    missed: &'a Missed,
+    pub(super) missed: &'a Missed,
     /// Runs the first of them.
     command: String,
 }
 
+impl Cause<'_> {
+    /// What is said of it, of a case.
+    pub(super) fn listed(&self, case: &str) -> [String; 2] {
+        let Cause { why, missed: Missed { count, seeds }, command } = self;
+        let listed: Vec<String> = seeds.iter().map(u64::to_string).collect();
+        let more = if *count > seeds.len() { ", …" } else { "" };
+        let seeds = format!("seed{} {}{more}", if *count == 1 { "" } else { "s" }, listed.join(", "));
+        [format!("  missed        {case}{count}, {why}: {seeds}"), format!("                {command}")]
+    }
+}
+
 impl<'a> CampaignSummary<'a> {
-    /// The summary of a table. `run` is the command that runs its mission, but for the seed.
+    /// The summary of a table's only case, or of one of several. `run` is the command that runs its mission, but for the seed.
     pub fn new(plan: &'a Plan, seeds: Seeds, table: &Path, tally: &'a Tally, run: &str) -> Self {
         let cause = |(why, missed): (&'a str, &'a Missed)| Cause {
             why,
@@ -109,13 +120,8 @@ impl<'a> CampaignSummary<'a> {
             }
         }
         lines.add(&format!("  intervals: {}; quantiles: {}", self.interval, self.quantile));
-        for Cause { why, missed, command } in self.missed.iter().take(LISTED_MAX) {
-            let Missed { count, seeds } = missed;
-            let listed: Vec<String> = seeds.iter().map(u64::to_string).collect();
-            let more = if *count > seeds.len() { ", …" } else { "" };
-            let seeds = format!("seed{} {}{more}", if *count == 1 { "" } else { "s" }, listed.join(", "));
-            lines.add(&format!("  missed        {count}, {why}: {seeds}"));
-            lines.add(&format!("                {command}"));
+        for cause in self.missed.iter().take(LISTED_MAX) {
+            cause.listed("").iter().for_each(|line| lines.add(line));
         }
         if self.missed.len() > LISTED_MAX {
             lines.add(&format!("  missed        by {} causes more: `--json` has them", self.missed.len() - LISTED_MAX));

@@ -9,11 +9,11 @@ use super::neighbours::{
     MADE_FROM, alone, alone_of_name, belongs, is_there, left_by, lock, neighbours, no_stray_link, same, silent, write,
 };
 use super::provenance::{self, OriginKey, Provenance, Unread, beside};
-use super::seeds::Seeds;
+use super::seeds::Rows;
 use super::sums::{self, Sums};
 use crate::disk;
 use crate::made::is_as_summed;
-use albacore_session::campaign::{Columns, Row, Tally, plain};
+use albacore_session::campaign::{Columns, Row, Tallies, plain};
 use albacore_session::read_file;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -151,7 +151,7 @@ impl Table {
     }
 
     /// Goes on with a table, or begins it if there is none.
-    pub fn resume(path: &Path, columns: &Columns, origin: &Provenance, seeds: Seeds) -> Result<Self, TableError> {
+    pub fn resume(path: &Path, columns: &Columns, origin: &Provenance, rows: Rows) -> Result<Self, TableError> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 if !neighbours(path).iter().any(|left| is_there(left)) {
@@ -182,7 +182,7 @@ impl Table {
             Err(Unread::Missing) if text.is_empty() => Vec::new(),
             sums => sums.map_err(|unread| silent(path, ".sums", "which tells whether its rows are whole", unread))?,
         };
-        let mut table = Table::held(path, file, Found { text, sums }, columns, origin, seeds)?;
+        let mut table = Table::held(path, file, Found { text, sums }, columns, origin, rows)?;
         if let Some(theirs) = changed_origin {
             table.origin_changed(&theirs, origin)?;
         }
@@ -196,7 +196,7 @@ impl Table {
         found: Found,
         columns: &Columns,
         origin: &Provenance,
-        seeds: Seeds,
+        rows: Rows,
     ) -> Result<Self, TableError> {
         let head = line(columns.names());
         let kept = sums::held_against(&found.text, &found.sums, &origin.key());
@@ -205,7 +205,7 @@ impl Table {
         // What the first line was is known without it.
         let mut lines = vec![Some(head.clone())];
         for (number, line) in kept.lines {
-            let at = if line == head { 0 } else { place(path, number, line, columns, seeds)? };
+            let at = if line == head { 0 } else { place(path, number, line, columns, rows)? };
             lines.resize(lines.len().max(at + 1), None);
             lines[at] = Some(line.to_vec());
             if are_written && number != at + 1 {
@@ -220,14 +220,14 @@ impl Table {
             of_head if !is_headed && head.starts_with(of_head) => {}
             _ if !is_headed => drop(changed.insert(1)),
             // Whether it is the row that was being written is known when that is run again.
-            of_row if row < seeds.count() && may_be_row(of_row, seeds.first + row, columns) => {
+            of_row if row < rows.count() && may_be_row(of_row, row, columns, rows) => {
                 lines.push(None);
                 tail = Some(Tail { row, at: found.text.len() - of_row.len() });
             }
             _ => drop(changed.insert(lines.len() + 1)),
         }
         // Into one that is complete nothing has to be written, and nothing is.
-        let is_complete = lines.len() as u64 > seeds.count() && lines.iter().all(Option::is_some) && changed.is_empty();
+        let is_complete = lines.len() as u64 > rows.count() && lines.iter().all(Option::is_some) && changed.is_empty();
         if !is_complete {
             alone_of_name(path)?;
             file.may_grow()?;
@@ -293,9 +293,9 @@ impl Table {
         Ok(())
     }
 
-    /// The seeds that are still to be run. The last one of the table is run again: if its row comes out otherwise, this
-    /// is another interpreter, whatever its version says. Then come those whose rows were changed.
-    pub fn missing(&self, seeds: Seeds) -> impl Iterator<Item = u64> + Clone + use<> {
+    /// The numbers of the rows that are still to be run. The last one of the table is run again: if it comes out otherwise, this
+    /// is another interpreter, whatever its version says. Then come those that were changed.
+    pub fn missing(&self, rows: Rows) -> impl Iterator<Item = u64> + Clone + use<> {
         let known = self.known.as_ref().map(|(row, _)| *row);
         let (written, changed): (u64, Vec<u64>) = match &self.state {
             State::Adding { rows, .. } => (*rows, Vec::new()),
@@ -304,8 +304,7 @@ impl Table {
                 (lines.len() as u64 - 1, changed.collect())
             }
         };
-        let again = known.into_iter().chain(changed).map(move |row| seeds.first + row);
-        again.chain(seeds.after(written))
+        known.into_iter().chain(changed).chain(written..rows.count())
     }
 
     /// How many rows it has.
@@ -322,7 +321,7 @@ impl Table {
     }
 
     /// Adds a row.
-    pub fn add(&mut self, seeds: Seeds, row: &Row) -> Result<(), TableError> {
+    pub fn add(&mut self, row: &Row) -> Result<(), TableError> {
         let line = line(&row.cells);
         if let Some((_, known)) = self.known.take() {
             if known == line {
@@ -340,7 +339,7 @@ impl Table {
                 *rows += 1;
             }
             State::Mending { found, lines, .. } => {
-                let at = row.seed - seeds.first;
+                let at = row.number;
                 if let Some(tail) = self.tail.take_if(|tail| tail.row == at)
                     && !line.starts_with(&found.text[tail.at..])
                 {
@@ -373,7 +372,7 @@ impl Table {
     }
 
     /// What the rows come to, when all are written.
-    pub fn tally(&mut self, columns: &Columns, origin: &Provenance) -> Result<Tally, TableError> {
+    pub fn tally(&mut self, columns: &Columns, origin: &Provenance, cases: usize) -> Result<Tallies, TableError> {
         match provenance::read(&self.path) {
             // Nobody else could put it back.
             Err(Unread::Missing) => write(origin, &self.path)?,
@@ -381,12 +380,12 @@ impl Table {
             Ok(theirs) => self.origin_changed(&theirs, origin)?,
             Err(unread) => return Err(silent(&self.path, ".origin", MADE_FROM, unread)),
         }
-        let (path, mut tally, mut is_headed) = (&self.path, Tally::default(), false);
+        let (path, mut tallies, mut is_headed) = (&self.path, Tallies::new(cases), false);
         let add = |piece: &[u8]| {
             let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(piece);
             for row in reader.records().skip(usize::from(!std::mem::replace(&mut is_headed, true))) {
                 let row = row.map_err(|error| TableError::Disk(path.clone(), error.into()))?;
-                tally.add(columns, &row.iter().collect::<Vec<_>>());
+                tallies.add(columns, &row.iter().collect::<Vec<_>>());
             }
             Ok(())
         };
@@ -397,32 +396,34 @@ impl Table {
             }
             State::Mending { file, .. } => file.read(add)?,
         }
-        Ok(tally)
+        Ok(tallies)
     }
 }
 
-/// Where the row of a known line stands among the lines: an error if it is none of these seeds.
-fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, seeds: Seeds) -> Result<usize, TableError> {
+/// Where the row of a known line stands among the lines: an error if it is none of these.
+fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, rows: Rows) -> Result<usize, TableError> {
     let asked = |message: String, help: String| {
         Err(TableError::Asked(message, format!("{help}, or choose another file with `--out`")))
     };
-    let Some(seed) = seed_of(line, columns) else {
+    let Some((seed, case)) = run_of(line, columns) else {
         let message = match number {
             1 => format!("`{}` has other columns than this campaign", path.display()),
             _ => format!("`{}`, line {number}: this is no row of this campaign", path.display()),
         };
         return asked(message, "give the `--reports` that it was begun with".to_string());
     };
-    if !(seeds.first..=seeds.last).contains(&seed) {
-        let message = format!("`{}`, line {number}: this has seed {seed}", path.display());
-        return asked(message, format!("`--seeds {seeds}` ends before it: ask for more seeds"));
+    match rows.order().number(seed, case).filter(|row| *row < rows.count()) {
+        Some(row) => Ok(row as usize + 1),
+        None => {
+            let message = format!("`{}`, line {number}: this has seed {seed}", path.display());
+            asked(message, format!("`--seeds {}` ends before it: ask for more seeds", rows.seeds))
+        }
     }
-    Ok((seed - seeds.first) as usize + 1)
 }
 
-/// Whether the end of a table may be the row of a seed, or the beginning of that.
-fn may_be_row(tail: &[u8], seed: u64, columns: &Columns) -> bool {
-    !tail.contains(&b'\n') || seed_of(tail, columns) == Some(seed)
+/// Whether the end of a table may be a row, or the beginning of that.
+fn may_be_row(tail: &[u8], row: u64, columns: &Columns, rows: Rows) -> bool {
+    !tail.contains(&b'\n') || run_of(tail, columns) == Some(rows.order().run(row))
 }
 
 /// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
@@ -447,12 +448,11 @@ fn keep(table: &Path, found: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, TableErro
     Ok(Vec::new())
 }
 
-/// The seed of a row that has all columns.
-fn seed_of(line: &[u8], columns: &Columns) -> Option<u64> {
+/// The seed and the case of a row that has all columns.
+fn run_of(line: &[u8], columns: &Columns) -> Option<(u64, usize)> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
-    let row = reader.records().next()?.ok().filter(|row| row.len() == columns.names().len())?;
-    let column = columns.names().iter().position(|name| name == "seed")?;
-    row.get(column)?.parse().ok()
+    let row = reader.records().next()?.ok()?;
+    columns.run(&row.iter().collect::<Vec<_>>())
 }
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.

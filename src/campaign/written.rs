@@ -3,6 +3,7 @@
 use super::provenance::{self, Provenance, Unread};
 use super::sums;
 use crate::made::is_as_summed;
+use albacore_session::campaign::RowOrder;
 use albacore_session::read_file;
 use std::path::{Path, PathBuf};
 
@@ -17,19 +18,35 @@ pub struct WrittenTable {
     pub origin: Provenance,
     /// Its first line.
     pub head: Vec<u8>,
-    /// Its rows, each with its seed: one for each seed from the first on.
-    pub rows: Vec<(u64, Vec<u8>)>,
+    /// Its rows, in their order: of each seed from the first on one of each case, but perhaps of the last.
+    pub rows: Vec<WrittenRow>,
+}
+
+/// A row, and which run it is of.
+pub struct WrittenRow {
+    /// The seed.
+    pub seed: u64,
+    /// The case, from 0.
+    pub case: usize,
+    /// The line.
+    pub line: Vec<u8>,
 }
 
 /// Why a table cannot be used: what is wrong, and a fix.
 pub type Unusable = (String, String);
 
-/// Finds the seed in a row of a table with this first line.
-fn seeds(head: &[u8]) -> impl Fn(&[u8]) -> Option<u64> + use<> {
+/// Finds the seed and the case in a row of a table with this first line: one that has no column for the case is of one.
+fn runs(head: &[u8], cases: usize) -> impl Fn(&[u8]) -> Option<(u64, usize)> + use<> {
     let cells =
         |line: &[u8]| csv::ReaderBuilder::new().has_headers(false).from_reader(line).into_records().next()?.ok();
-    let column = cells(head).and_then(|names| names.iter().position(|name| name == "seed"));
-    move |line| cells(line)?.get(column?)?.parse().ok()
+    let names = cells(head);
+    let column = move |name: &str| names.as_ref()?.iter().position(|other| other == name);
+    let (seed, case) = (column("seed"), column("case"));
+    move |line| {
+        let cells = cells(line)?;
+        let case = if cases == 1 { 1 } else { cells.get(case?)?.parse::<usize>().ok()? };
+        Some((cells.get(seed?)?.parse().ok()?, case.checked_sub(1)?))
+    }
 }
 
 impl WrittenTable {
@@ -66,15 +83,26 @@ impl WrittenTable {
         }
         let mut lines = kept.lines.into_iter().map(|(_, line)| line);
         let head = lines.next().unwrap_or_default().to_vec();
-        let rows: Vec<(u64, Vec<u8>)> = (origin.first_seed()..).zip(lines.map(<[u8]>::to_vec)).collect();
-        // Whoever takes a row out and its checksum too leaves a table that is whole by its sums.
-        let seed_of = seeds(&head);
-        if let Some((due, found)) =
-            rows.iter().map(|(due, line)| (*due, seed_of(line))).find(|(due, found)| *found != Some(*due))
-        {
-            let found = found.map_or("none".to_string(), |found| format!("seed {found}"));
-            let message = format!("`{shown}` has {found} where seed {due} is due: rows were taken out of it");
-            return Err((message, again.to_string()));
+        let cases = origin.cases().len();
+        if cases == 0 {
+            return Err((format!("`{shown}.origin` tells of no case"), again.to_string()));
+        }
+        let (order, run_of) = (RowOrder { first_seed: origin.first_seed(), cases: cases as u64 }, runs(&head, cases));
+        let mut rows = Vec::new();
+        for (number, line) in (0..).zip(lines) {
+            let (seed, case) = order.run(number);
+            // Whoever takes a row out and its checksum too leaves a table that is whole by its sums.
+            let found = run_of(line);
+            if found != Some((seed, case)) {
+                let named = |(seed, case): (u64, usize)| match cases {
+                    1 => format!("seed {seed}"),
+                    _ => format!("seed {seed} of case {}", case + 1),
+                };
+                let (found, due) = (found.map_or("none".to_string(), named), named((seed, case)));
+                let message = format!("`{shown}` has {found} where {due} is due: rows were taken out of it");
+                return Err((message, again.to_string()));
+            }
+            rows.push(WrittenRow { seed, case, line: line.to_vec() });
         }
         if rows.is_empty() {
             return Err((format!("`{shown}` has no rows"), again.to_string()));
@@ -89,6 +117,11 @@ impl WrittenTable {
 
     /// The seed of its last row.
     pub fn last(&self) -> u64 {
-        self.first() + self.rows.len() as u64 - 1
+        self.rows.last().map_or(self.first(), |row| row.seed)
+    }
+
+    /// Whether its last seed has a row of each case.
+    pub fn is_even(&self) -> bool {
+        self.rows.len().is_multiple_of(self.origin.cases().len())
     }
 }

@@ -31,10 +31,15 @@ fn key(out: &Path) -> String {
         let scripts = scripts.as_array().cloned().unwrap_or_else(|| vec![scripts.clone()]);
         scripts.iter().map(|script| script["digest"].clone()).filter(|digest| !digest.is_null()).collect()
     };
-    let told = ["albacore", "mission", "scenario", "first_seed", "set", "fault"].map(|name| origin[name].clone());
-    let scripts = ["sources", "scenario_script"].map(|name| digests(&origin[name]).into());
+    let case = |case: &Value| {
+        let told = ["mission", "scenario", "set", "scripts"].map(|name| case[name].clone());
+        Value::Array(told.into_iter().chain([digests(&case["scenario_script"]).into()]).collect())
+    };
+    let cases: Vec<Value> = origin["cases"].as_array().unwrap().iter().map(case).collect();
+    let told = ["albacore", "first_seed", "fault"].map(|name| origin[name].clone());
+    let told = told.into_iter().chain([digests(&origin["sources"]).into(), cases.into()]);
     let mut digest = Digest::new();
-    digest.bytes(Value::Array(told.into_iter().chain(scripts).collect()).to_string().as_bytes());
+    digest.bytes(Value::Array(told.collect()).to_string().as_bytes());
     digest.to_string()
 }
 

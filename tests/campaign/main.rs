@@ -11,6 +11,7 @@ mod merge;
 #[path = "../shell/mod.rs"]
 mod shell;
 mod sources;
+mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

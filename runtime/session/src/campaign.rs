@@ -1,7 +1,8 @@
-//! A campaign: one mission in one scenario with many seeds, on all cores, its results in the order of the seeds.
+//! A campaign: missions in scenarios with many seeds, on all cores, its results in the order of the seeds.
 
 mod cell;
 mod columns;
+mod order;
 mod paired;
 mod report_columns;
 mod statistics;
@@ -9,14 +10,16 @@ mod tally;
 
 pub use cell::plain;
 pub use columns::{Columns, Row};
+pub use order::RowOrder;
 pub use paired::{MEDIAN_INTERVAL, PairedDifference, PairedShare, SHARE_INTERVAL, TEST};
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
-pub use tally::{Missed, Tally, WITHIN_M, Within};
+pub use tally::{Missed, Tallies, Tally, WITHIN_M, Within};
 
 use crate::plan::{Plan, PlanError};
 use crate::recorders::results::Results;
 use crate::run::Driver;
 use crate::summary::Summary;
+use albacore_program::Program;
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -40,17 +43,29 @@ pub enum Delivery {
     Nothing,
 }
 
-/// A mission in a scenario, to be run with many seeds.
+/// What is run with each seed: a mission in a scenario, with what a sweep changes of them.
+pub struct Case {
+    /// The mission and its world.
+    pub plan: Plan,
+    /// What the sweep changes, a cell for each of its columns.
+    pub swept: Vec<String>,
+}
+
+/// Cases to be run with many seeds: the same seeds in each.
 pub struct Campaign {
-    plan: Plan,
+    cases: Vec<Case>,
     columns: Columns,
+    order: RowOrder,
 }
 
 impl Campaign {
-    /// A campaign whose table has columns for so many reports of each name.
-    pub fn new(plan: Plan, reports: usize) -> Self {
-        let columns = Columns::new(&plan.program, reports);
-        Campaign { plan, columns }
+    /// A campaign of cases, whose rows begin with the first seed. `swept` names the columns of what a sweep changes; of each report's name
+    /// there are columns for so many.
+    pub fn new(cases: Vec<Case>, swept: &[String], reports: usize, first_seed: u64) -> Self {
+        let programs: Vec<&Program> = cases.iter().map(|case| &*case.plan.program).collect();
+        let columns = Columns::new(&programs, swept, reports);
+        let order = RowOrder { first_seed, cases: cases.len() as u64 };
+        Campaign { cases, columns, order }
     }
 
     /// The columns of its table.
@@ -58,12 +73,17 @@ impl Campaign {
         &self.columns
     }
 
-    /// Runs every seed and delivers its row: in the order in which they are given, each as soon as it and all before it are over,
-    /// so that the rows do not depend on the number of threads, and some times a second at least nothing. Without `threads` there is one for each core. Whoever
-    /// raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
+    /// Its cases.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+
+    /// Runs what rows are of, by their numbers from 0, and delivers them: in the order in which they are given, each as soon as it and all
+    /// before it are over, so that the rows do not depend on the number of threads, and some times a second at least nothing. Without
+    /// `threads` there is one for each core. Whoever raises `stop`, or breaks off, gets no further row. Gives whether all were delivered.
     pub fn run(
         &self,
-        seeds: impl Iterator<Item = u64> + Clone,
+        rows: impl Iterator<Item = u64> + Clone,
         threads: Option<usize>,
         stop: &AtomicBool,
         mut deliver: impl FnMut(Delivery) -> ControlFlow<()>,
@@ -73,17 +93,17 @@ impl Campaign {
         let ahead = AHEAD_PER_THREAD * pool.current_num_threads();
         let (sender, receiver) = mpsc::channel();
         let all = pool.in_place_scope(|scope| {
-            let start = |seed: u64| {
+            let start = |number: u64| {
                 let sender = sender.clone();
                 // Nobody listens any more when the campaign was broken off.
-                scope.spawn(move |_| drop(sender.send((seed, self.row(seed, stop)))));
+                scope.spawn(move |_| drop(sender.send((number, self.row(number, stop)))));
             };
-            let mut later = seeds.clone();
+            let mut later = rows.clone();
             later.by_ref().take(ahead).for_each(&start);
             let mut early: BTreeMap<u64, Option<Row>> = BTreeMap::new();
-            for seed in seeds {
+            for number in rows {
                 let row = loop {
-                    if let Some(row) = early.remove(&seed) {
+                    if let Some(row) = early.remove(&number) {
                         break row;
                     }
                     // `start` holds a sender: there is always someone to hear from.
@@ -105,13 +125,15 @@ impl Campaign {
         Ok(all)
     }
 
-    /// The row of one seed; `None` when the campaign was stopped before the run's end.
-    fn row(&self, seed: u64, stop: &AtomicBool) -> Option<Row> {
-        let result = contained(|| summary(&self.plan, seed, stop));
-        match result {
-            Ok(summary) => summary.map(|summary| self.columns.row(&summary)),
-            Err(why) => Some(self.columns.failed(&self.plan.scenario_name, seed, &why)),
-        }
+    /// The row with a number; `None` when the campaign was stopped before its run's end.
+    fn row(&self, number: u64, stop: &AtomicBool) -> Option<Row> {
+        let (seed, at) = self.order.run(number);
+        let case = self.cases.get(at)?;
+        let cells = match contained(|| summary(&case.plan, seed, stop)) {
+            Ok(summary) => self.columns.cells(at, &case.swept, &summary?),
+            Err(why) => self.columns.failed(at, case, seed, &why),
+        };
+        Some(Row { number, seed, cells })
     }
 }
 

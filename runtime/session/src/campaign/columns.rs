@@ -1,5 +1,6 @@
 //! The columns of a campaign's table, all known before the first run, and the cells of a row.
 
+use super::Case;
 use super::cell::plain;
 use super::report_columns::{ReportColumns, parts};
 use crate::recorders::account::behavior_names;
@@ -38,15 +39,28 @@ pub(super) const METRE_DECIMALS: u8 = 3;
 /// The columns of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
+    /// How many columns stand before those of every table: the case, its mission, and what a sweep changes.
+    before: usize,
+    cases: Vec<CaseColumns>,
+    names: Vec<String>,
+}
+
+/// The columns that the runs of one case fill, beside those of every table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct CaseColumns {
+    mission: String,
     reports: Vec<ReportColumns>,
     /// The behaviors that have columns, by their names.
     behaviors: Vec<String>,
-    names: Vec<String>,
+    /// Where in the table each of them stands.
+    places: Vec<usize>,
 }
 
 /// A row: a cell for each column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
+    /// Its number, from 0.
+    pub number: u64,
     /// The seed.
     pub seed: u64,
     /// Its cells.
@@ -54,10 +68,110 @@ pub struct Row {
 }
 
 impl Columns {
-    /// The columns for a program's runs. What its reports hold has columns for the first report of each name, and for each further one that is
-    /// asked for: how often a loop reports shows only when it runs. So have their times and errors, but for those of the first report of an
-    /// only name, which are among the columns of every table. Last come how long each behavior was active, and the way meanwhile.
-    pub fn new(program: &Program, reports_of_each: usize) -> Self {
+    /// The columns for the runs of programs, one for each case. What their reports hold has columns for the first report of each name, and for
+    /// each further one that is asked for: how often a loop reports shows only when it runs. So have their times and errors, but for those of the
+    /// first report of an only name, which are among the columns of every table. Last come how long each behavior was active, and
+    /// the way meanwhile. Where there are several cases, the case, its mission and what is swept come first, and cases
+    /// share a column that they call alike.
+    pub(super) fn new(programs: &[&Program], swept: &[String], reports_of_each: usize) -> Self {
+        let mut taken: BTreeSet<String> = FIXED.map(str::to_string).into();
+        let before = if programs.len() > 1 { vec!["case".to_string(), "mission".to_string()] } else { Vec::new() };
+        let before = before.into_iter().chain(swept.iter().cloned());
+        let mut names: Vec<String> = before.map(|name| unused(&mut taken, &name)).collect();
+        let before = names.len();
+        names.extend(FIXED.map(str::to_string));
+        let cases = programs.iter().map(|program| {
+            // Of its own columns no two have one name.
+            let (case, own) = CaseColumns::new(program, reports_of_each, names[..before + FIXED.len()].iter().cloned());
+            let place = |name: String| {
+                let known = names[before + FIXED.len()..].iter().position(|known| *known == name);
+                known.map(|known| before + FIXED.len() + known).unwrap_or_else(|| {
+                    names.push(name);
+                    names.len() - 1
+                })
+            };
+            CaseColumns { places: own.into_iter().map(place).collect(), ..case }
+        });
+        let cases = cases.collect();
+        Columns { before, cases, names }
+    }
+
+    /// Their names.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The seed and the case, from 0, of a row that has all columns.
+    pub fn run(&self, cells: &[&str]) -> Option<(u64, usize)> {
+        let seed = self.cell(cells, "seed").parse().ok()?;
+        Some((seed, self.case(cells)?)).filter(|_| cells.len() == self.names.len())
+    }
+
+    /// The case of a row, from 0.
+    pub(super) fn case(&self, cells: &[&str]) -> Option<usize> {
+        if self.cases.len() == 1 {
+            return Some(0);
+        }
+        cells.first()?.parse::<usize>().ok()?.checked_sub(1).filter(|case| *case < self.cases.len())
+    }
+
+    /// Whether the mission of a case reports anything.
+    pub(super) fn has_reports(&self, case: usize) -> bool {
+        self.cases.get(case).is_some_and(|case| !case.reports.is_empty())
+    }
+
+    /// How many of its reports a row tells.
+    pub(super) fn report_count(&self, case: usize, cells: &[&str]) -> usize {
+        let Some(case) = self.cases.get(case) else { return 0 };
+        let mut at = 0;
+        let is_told = |columns: &ReportColumns| {
+            let time = case.places.get(at).filter(|_| columns.is_timed).and_then(|place| cells.get(*place));
+            at += columns.count();
+            !time.copied().unwrap_or_else(|| self.cell(cells, "report_t_s")).is_empty()
+        };
+        case.reports.iter().map(is_told).filter(|told| *told).count()
+    }
+
+    /// A cell of a row by the name of its column, which is one of every table.
+    pub(super) fn cell<'a>(&self, cells: &[&'a str], name: &str) -> &'a str {
+        let place = FIXED.iter().position(|fixed| *fixed == name);
+        place.and_then(|i| cells.get(self.before + i)).copied().unwrap_or_default()
+    }
+
+    /// The cells of a run that is over.
+    pub(super) fn cells(&self, at: usize, swept: &[String], run: &Summary) -> Vec<String> {
+        let Some(case) = self.cases.get(at) else { return Vec::new() };
+        let mut cells = self.cells_before(at, swept);
+        cells.extend(fixed_cells(run));
+        cells.resize(self.names.len(), String::new());
+        for (place, cell) in case.places.iter().zip(case.cells(run)) {
+            cells[*place] = cell;
+        }
+        cells
+    }
+
+    /// The cells of a run of which nothing is known but why it failed.
+    pub(super) fn failed(&self, at: usize, case: &Case, seed: u64, why: &str) -> Vec<String> {
+        let scenario = case.plan.scenario_name.as_str();
+        let known = [("scenario", scenario), ("seed", &seed.to_string()), ("outcome", "failed"), ("reason", why)];
+        let cell = |name: &&str| known.iter().find(|(known, _)| known == name).map_or("", |(_, cell)| cell);
+        let mut cells = self.cells_before(at, &case.swept);
+        cells.extend(FIXED.iter().map(|name| cell(name).to_string()));
+        cells.resize(self.names.len(), String::new());
+        cells
+    }
+
+    fn cells_before(&self, at: usize, swept: &[String]) -> Vec<String> {
+        let case = self.cases.get(at).filter(|_| self.cases.len() > 1);
+        let case = case.map(|case| [(at + 1).to_string(), case.mission.clone()]);
+        case.into_iter().flatten().chain(swept.iter().cloned()).collect()
+    }
+}
+
+impl CaseColumns {
+    /// The columns of a program's runs, and their names, which are none of those that are taken.
+    fn new(program: &Program, reports_of_each: usize, taken: impl Iterator<Item = String>) -> (Self, Vec<String>) {
+        let mut taken: BTreeSet<String> = taken.collect();
         let mut reported: Vec<&str> = Vec::new();
         for site in &program.reports {
             if !reported.contains(&site.name.as_str()) {
@@ -65,9 +179,7 @@ impl Columns {
             }
         }
         let has_one_name = reported.len() == 1;
-        let mut names: Vec<String> = FIXED.map(str::to_string).to_vec();
-        let mut taken: BTreeSet<String> = names.iter().cloned().collect();
-        let mut reports = Vec::new();
+        let (mut names, mut reports) = (Vec::new(), Vec::new());
         for name in reported {
             let parts = parts(&program.reports, name);
             for nth in 0..reports_of_each {
@@ -81,59 +193,13 @@ impl Columns {
         for behavior in &behaviors {
             names.extend(["s", "m"].map(|unit| unused(&mut taken, &format!("{behavior}_{unit}"))));
         }
-        Columns { reports, behaviors, names }
+        let mission = program.mission.name.clone();
+        (CaseColumns { mission, reports, behaviors, places: Vec::new() }, names)
     }
 
-    /// Their names.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// Whether the mission reports anything.
-    pub(super) fn has_reports(&self) -> bool {
-        !self.reports.is_empty()
-    }
-
-    /// How many of its reports a row tells.
-    pub(super) fn report_count(&self, cells: &[&str]) -> usize {
-        let mut at = FIXED.len();
-        let is_told = |columns: &ReportColumns| {
-            let time = if columns.is_timed { cells.get(at) } else { None };
-            at += columns.count();
-            !time.copied().unwrap_or_else(|| Self::cell(cells, "report_t_s")).is_empty()
-        };
-        self.reports.iter().map(is_told).filter(|told| *told).count()
-    }
-
-    /// A cell of a row by the name of its column, which is one of every table.
-    pub(super) fn cell<'a>(cells: &[&'a str], name: &str) -> &'a str {
-        FIXED.iter().position(|fixed| *fixed == name).and_then(|i| cells.get(i)).copied().unwrap_or_default()
-    }
-
-    /// The row of a run that is over.
-    pub(super) fn row(&self, run: &Summary) -> Row {
-        let first = run.reports.first();
-        let mut cells = vec![
-            run.scenario.clone(),
-            run.seed.to_string(),
-            run.outcome.to_string(),
-            run.result.as_ref().map(|result| result.word.clone()).unwrap_or_default(),
-            run.reason.clone(),
-            seconds(first.map(|r| r.t_s)),
-            metres(first.and_then(|r| r.error_m)),
-            metres(first.and_then(|r| r.north_m)),
-            metres(first.and_then(|r| r.east_m)),
-            metres(first.and_then(|r| r.true_north_m)),
-            metres(first.and_then(|r| r.true_east_m)),
-            metres(first.and_then(|r| r.error_along_m)),
-            metres(first.and_then(|r| r.error_across_m)),
-            seconds(Some(run.sim_time_s)),
-            metres(Some(run.path_length_m)),
-            run.switches.to_string(),
-            run.holds.to_string(),
-            run.digest.clone(),
-            (run.reports.len() as u64 + run.more_reports).to_string(),
-        ];
+    /// The cells of a run that is over, in the order of the columns.
+    fn cells(&self, run: &Summary) -> Vec<String> {
+        let mut cells = Vec::new();
         for columns in &self.reports {
             let report = run.reports.iter().find(|r| r.name == columns.name && r.nth == columns.nth as u64);
             if columns.is_timed {
@@ -147,15 +213,34 @@ impl Columns {
             cells.push(seconds(Some(spent.map_or(0.0, |spent| spent.time_s))));
             cells.push(metres(Some(spent.map_or(0.0, |spent| spent.path_length_m))));
         }
-        Row { seed: run.seed, cells }
+        cells
     }
+}
 
-    /// The row of a run of which nothing is known but why it failed.
-    pub(super) fn failed(&self, scenario: &str, seed: u64, why: &str) -> Row {
-        let known = [("scenario", scenario), ("seed", &seed.to_string()), ("outcome", "failed"), ("reason", why)];
-        let cell = |name: &String| known.iter().find(|(known, _)| known == name).map_or("", |(_, cell)| cell);
-        Row { seed, cells: self.names.iter().map(|name| cell(name).to_string()).collect() }
-    }
+/// The cells of a run in the columns of every table.
+fn fixed_cells(run: &Summary) -> [String; FIXED.len()] {
+    let first = run.reports.first();
+    [
+        run.scenario.clone(),
+        run.seed.to_string(),
+        run.outcome.to_string(),
+        run.result.as_ref().map(|result| result.word.clone()).unwrap_or_default(),
+        run.reason.clone(),
+        seconds(first.map(|r| r.t_s)),
+        metres(first.and_then(|r| r.error_m)),
+        metres(first.and_then(|r| r.north_m)),
+        metres(first.and_then(|r| r.east_m)),
+        metres(first.and_then(|r| r.true_north_m)),
+        metres(first.and_then(|r| r.true_east_m)),
+        metres(first.and_then(|r| r.error_along_m)),
+        metres(first.and_then(|r| r.error_across_m)),
+        seconds(Some(run.sim_time_s)),
+        metres(Some(run.path_length_m)),
+        run.switches.to_string(),
+        run.holds.to_string(),
+        run.digest.clone(),
+        (run.reports.len() as u64 + run.more_reports).to_string(),
+    ]
 }
 
 /// The name as it stands in the table, or what is made of it when another column has it.
@@ -180,10 +265,13 @@ mod tests {
     use super::{Columns, FIXED};
     use albacore_program::{Program, ReportSite};
 
-    fn further(names: &[&str], reports: usize) -> Vec<String> {
+    fn program(names: &[&str]) -> Program {
         let site = |name: &&str| ReportSite { name: name.to_string(), fields: Vec::new() };
-        let program = Program { reports: names.iter().map(site).collect(), ..Program::default() };
-        Columns::new(&program, reports).names()[FIXED.len()..].to_vec()
+        Program { reports: names.iter().map(site).collect(), ..Program::default() }
+    }
+
+    fn further(names: &[&str], reports: usize) -> Vec<String> {
+        Columns::new(&[&program(names)], &[], reports).names()[FIXED.len()..].to_vec()
     }
 
     #[test]
@@ -203,5 +291,22 @@ mod tests {
         let made = further(&["=1", "'=1", "a\u{1b}", "a\\u{1b}"], 1);
         assert_eq!((made[0].as_str(), made[2].as_str()), ("'=1_t_s", "'=1_t_s_"));
         assert_eq!((made[4].as_str(), made[6].as_str()), ("a\\u{1b}_t_s", "a\\u{1b}_t_s_"));
+    }
+
+    #[test]
+    fn cases_share_what_they_call_alike() {
+        let (one, other) = (program(&["a", "b"]), program(&["seed", "b", "c"]));
+        let columns = Columns::new(&[&one, &other], &["seed".to_string(), "b_t_s".to_string()], 1);
+        assert_eq!(columns.names()[..4], ["case", "mission", "seed_", "b_t_s"]);
+        let further = ["a_t_s", "a_error_m", "b_t_s_", "b_error_m", "seed_t_s", "seed_error_m", "c_t_s", "c_error_m"];
+        assert_eq!(columns.names()[4 + FIXED.len()..], further);
+        assert_eq!(columns.cases[1].places, [4, 5, 2, 3, 6, 7].map(|place| 4 + FIXED.len() + place));
+        let mut row = vec![""; columns.names().len()];
+        (row[0], row[5]) = ("2", "7");
+        assert_eq!((columns.run(&row), columns.run(&row[1..])), (Some((7, 1)), None));
+        for case in ["0", "3", ""] {
+            row[0] = case;
+            assert_eq!(columns.run(&row), None);
+        }
     }
 }

@@ -50,17 +50,54 @@ pub struct Missed {
     pub seeds: Vec<u64>,
 }
 
-impl Tally {
+/// What the rows of each case come to, counted apart.
+#[derive(Clone, Debug)]
+pub struct Tallies {
+    /// One for each case.
+    pub cases: Vec<Tally>,
+}
+
+impl Tallies {
+    /// Those of so many cases, before the first row.
+    pub fn new(cases: usize) -> Self {
+        Tallies { cases: vec![Tally::default(); cases] }
+    }
+
     /// Takes in the cells of a row.
     pub fn add(&mut self, columns: &Columns, cells: &[&str]) {
-        let cell = |name| Columns::cell(cells, name);
+        let case = columns.case(cells);
+        if let Some((case, tally)) = case.and_then(|case| Some((case, self.cases.get_mut(case)?))) {
+            tally.add(columns, case, cells);
+        }
+    }
+
+    /// How many runs there were.
+    pub fn runs(&self) -> usize {
+        self.cases.iter().map(|tally| tally.runs).sum()
+    }
+
+    /// How long the longest run lasted, s.
+    pub fn longest_s(&self) -> f64 {
+        self.cases.iter().flat_map(|tally| &tally.sim_time_s).copied().fold(0.0, f64::max)
+    }
+
+    /// How many runs reported more often than their rows can tell, and how often a run reported at most.
+    pub fn crowded(&self) -> (usize, usize) {
+        let most = self.cases.iter().map(|tally| tally.reports_max).max();
+        (self.cases.iter().map(|tally| tally.crowded).sum(), most.unwrap_or(0))
+    }
+}
+
+impl Tally {
+    fn add(&mut self, columns: &Columns, case: usize, cells: &[&str]) {
+        let cell = |name| columns.cell(cells, name);
         let number = |name| cell(name).parse::<f64>().ok();
         self.runs += 1;
         *self.outcomes.entry(cell("outcome").to_string()).or_default() += 1;
         if !cell("result").is_empty() {
             *told_apart(&mut self.results, cell("result").to_string()) += 1;
         }
-        if let Some(why) = missed(columns, cells) {
+        if let Some(why) = missed(columns, case, cells) {
             let missed = told_apart(&mut self.missed, why);
             missed.count += 1;
             missed.seeds.extend(cell("seed").parse::<u64>().ok().filter(|_| missed.count <= MISSED_MAX));
@@ -73,7 +110,7 @@ impl Tally {
         self.path_length_m.extend(number("path_length_m"));
         let reports = cell("reports").parse().unwrap_or(0);
         self.reports_max = self.reports_max.max(reports);
-        if columns.report_count(cells) < reports {
+        if columns.report_count(case, cells) < reports {
             self.crowded += 1;
         }
     }
@@ -139,19 +176,9 @@ impl Tally {
         Quantiles::of(&self.sim_time_s)
     }
 
-    /// How long the longest run lasted, s.
-    pub fn longest_s(&self) -> f64 {
-        self.sim_time_s.iter().copied().fold(0.0, f64::max)
-    }
-
     /// Metres over ground.
     pub fn path_length_m(&self) -> Option<Quantiles> {
         Quantiles::of(&self.path_length_m)
-    }
-
-    /// How many runs reported more often than their rows can tell, and how often a run reported at most.
-    pub fn crowded(&self) -> (usize, usize) {
-        (self.crowded, self.reports_max)
     }
 }
 
@@ -162,14 +189,14 @@ fn told_apart<T: Default>(kept: &mut BTreeMap<String, T>, name: String) -> &mut 
 }
 
 /// Why a run missed what it was for, if it did.
-fn missed(columns: &Columns, cells: &[&str]) -> Option<String> {
-    let cell = |name| Columns::cell(cells, name);
+fn missed(columns: &Columns, case: usize, cells: &[&str]) -> Option<String> {
+    let cell = |name| columns.cell(cells, name);
     let because = |what: String, why: &str| if why.is_empty() { what } else { format!("{what}: {why}") };
     let outcome = cell("outcome").replace('_', " ");
     match cell("error_m").parse::<f64>() {
         _ if outcome != "completed" => Some(because(outcome, cell("reason"))),
         Ok(error) => WITHIN_M.last().filter(|far| error > **far).map(|far| format!("more than {far} m off")),
-        Err(_) if columns.has_reports() && cell("report_t_s").is_empty() => {
+        Err(_) if columns.has_reports(case) && cell("report_t_s").is_empty() => {
             Some(because("nothing reported".to_string(), &cell("result").replace('_', " ")))
         }
         Err(_) => None,
