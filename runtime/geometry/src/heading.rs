@@ -1,6 +1,6 @@
 //! A direction on the compass, and the smallest angle between two.
 
-use crate::math::{PI, TAU, atan2, cos, degrees, radians, sin};
+use crate::math::{PI, TAU, atan2, degrees, radians, sin_cos};
 use crate::plane::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Sub};
@@ -50,7 +50,8 @@ impl Heading {
 
     /// The unit vector in this direction.
     pub fn unit(self) -> Vector {
-        Vector::new(cos(self.0), sin(self.0))
+        let (sin, cos) = sin_cos(self.0);
+        Vector::new(cos, sin)
     }
 
     /// The opposite direction.

@@ -98,8 +98,9 @@ impl fmt::Display for AnomalyEvent {
 /// The watch of one run.
 #[derive(Clone, Debug)]
 pub struct HealthMonitor {
-    /// Those that are watched.
+    /// Those that are watched, and the place of each measurement among them.
     measurements: Vec<Watched>,
+    places: Vec<Option<u8>>,
     mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
@@ -145,7 +146,10 @@ struct Anomalies {
 impl Default for HealthMonitor {
     fn default() -> Self {
         let watched = (0..).zip(&measurements::ALL).filter(|(_, row)| row.is_watched);
+        let mut next = 0..;
+        let places = measurements::ALL.iter().map(|row| if row.is_watched { next.next() } else { None });
         HealthMonitor {
+            places: places.collect(),
             measurements: watched.map(|(number, _)| Watched::new(number)).collect(),
             mirrored: Mirrored::default(),
             motion: Motion::default(),
@@ -162,12 +166,11 @@ impl HealthMonitor {
     pub fn look(&mut self, tick: u64, snapshot: &Snapshot, command: Option<&Command>) -> Vec<AnomalyEvent> {
         self.anomalies.tick = tick;
         let is_steered = self.is_steered(tick, command);
-        let hides = |measurement: &Watched| measurement.is_of(DEPTH) && measurement.rests(tick) > FOLLOWS_TICKS;
-        let is_blind = self.measurements.iter().any(hides);
+        let is_blind = self.watched(DEPTH).is_some_and(|depth| depth.rests(tick) > FOLLOWS_TICKS);
         let mut heard = Heard { tick, ..Heard::default() };
         let mut water_depth = None;
         for sample in &snapshot.samples {
-            match self.measurements.iter_mut().find(|measurement| measurement.is_of(sample.measurement)) {
+            match place(&self.places, sample.measurement).and_then(|place| self.measurements.get_mut(place)) {
                 Some(measurement) => {
                     let credible = measurement.hear(tick, sample.reading, &mut self.anomalies);
                     heard.take(sample.measurement, credible);
@@ -177,24 +180,23 @@ impl HealthMonitor {
             }
         }
         self.mirrored.look(&heard);
-        for measurement in &mut self.measurements {
-            if measurement.is_of(DEPTH) {
-                measurement.moves(self.mirrored.is_the_vehicles());
-            }
-            if measurement.is_of(ALTITUDE) {
-                measurement.learns(!(is_steered && is_blind));
-            }
-            // A vehicle that stands still has no course.
-            if measurement.is_of(COURSE) && self.motion.speed() < AT_REST {
-                measurement.excuse(tick);
-            }
-            measurement.wait(tick, &mut self.anomalies);
+        let is_the_vehicles = self.mirrored.is_the_vehicles();
+        self.watched(DEPTH).into_iter().for_each(|depth| depth.moves(is_the_vehicles));
+        self.watched(ALTITUDE).into_iter().for_each(|altitude| altitude.learns(!(is_steered && is_blind)));
+        // A vehicle that stands still has no course.
+        if self.motion.speed() < AT_REST {
+            self.watched(COURSE).into_iter().for_each(|course| course.excuse(tick));
         }
+        self.measurements.iter().for_each(|measurement| measurement.wait(tick, &mut self.anomalies));
         let command = command.filter(|_| snapshot.control == Control::InControl);
         self.motion.look(&heard, &mut self.anomalies);
         self.commanded.look(&heard, command, self.motion.speed(), &mut self.anomalies);
         self.add_up(&heard, water_depth);
         self.anomalies.settle()
+    }
+
+    fn watched(&mut self, measurement: u16) -> Option<&mut Watched> {
+        place(&self.places, measurement).and_then(|place| self.measurements.get_mut(place))
     }
 
     /// Whether something is seen now.
@@ -224,6 +226,11 @@ impl HealthMonitor {
     }
 }
 
+/// Where a measurement stands among those that are watched.
+fn place(places: &[Option<u8>], measurement: u16) -> Option<usize> {
+    places.get(usize::from(measurement)).copied().flatten().map(usize::from)
+}
+
 impl Heard {
     fn take(&mut self, measurement: u16, credible: Option<Credible>) {
         let place = match measurement {
@@ -236,7 +243,9 @@ impl Heard {
             FLOW => &mut self.flow,
             _ => return,
         };
-        *place = credible.or(*place);
+        if credible.is_some() {
+            *place = credible;
+        }
     }
 }
 

@@ -117,10 +117,6 @@ impl Watched {
         Some(Credible { reading, same: tick - since, lively })
     }
 
-    pub fn is_of(&self, number: u16) -> bool {
-        self.number == number
-    }
-
     /// It may well be silent now, or tell the same again and again.
     pub fn excuse(&mut self, tick: u64) {
         (self.last, self.same) = (self.last.max(tick), 0);

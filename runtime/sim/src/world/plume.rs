@@ -9,6 +9,7 @@ mod settings;
 mod source;
 mod spin_up;
 mod steps;
+mod way;
 
 pub use index::Index;
 pub use nearby::Nearby;
@@ -17,16 +18,17 @@ pub(crate) use settings::check;
 pub use source::{Leak, Patch, Source, Times};
 pub(crate) use source::{SPIN_UP_MAX_S, check as check_sources};
 pub use spin_up::begin as spin_up_begin;
-pub use steps::{LONGEST_PLUME_STEP_S, LONGEST_STEP_S, stays_in_layer};
+pub use steps::{LONGEST_STEP_S, ahead};
 
 use crate::noise::{Noise, Stream};
 use crate::scenario::Scenario;
 use crate::world::water::{Cells, FlowFrame, Water};
 use albacore_vehicle::TICK_S;
-use block::{Block, Drift, Filament, reflected};
+use block::{Block, Diffusion, Drift, Filament, folded};
 use kernel::Kernel;
 use release::Release;
-use steps::{Steps, longest};
+use steps::Steps;
+use way::{Bridge, Way};
 
 /// The number of the first patch's streams: sources have those below.
 const PATCH_STREAMS: u32 = 1 << 31;
@@ -40,8 +42,7 @@ struct Origin {
     /// None of a patch: it has released all.
     release: Option<Release>,
     kernel: Kernel,
-    /// Horizontal and vertical diffusion of its filaments.
-    noises: (Noise, Noise),
+    diffusion: Diffusion,
 }
 
 /// All filaments of a run.
@@ -52,20 +53,20 @@ pub struct FilamentPlume {
     origins: Vec<Origin>,
     /// All that are alive, in the order of their release; the last block takes what is released.
     blocks: Vec<Block>,
-    steps_of: Steps,
+    steps: Steps,
+    bridge: Bridge,
     /// The birth of the oldest patch, s; 0 without any.
     oldest_patch: f64,
     /// Filaments leave the plume where they leave this box, m.
     length: f64,
     width: f64,
-    /// Time at the end of the last step, and how long that step was, s.
-    end: f64,
-    step: f64,
-    /// The same time in ticks, and the ticks of a step.
-    end_tick: u64,
-    step_ticks: u64,
-    /// Steps so far, spin-up included: the second half of every noise index.
-    steps: u64,
+    /// The speed of the mean flow, m/s.
+    mean: f64,
+    /// The plume's step that tick 0 begins: the spin-up has those before.
+    zero: u64,
+    /// The steps with which the last stride began and ended.
+    begun: u64,
+    until: u64,
     cells: Cells,
 }
 
@@ -73,8 +74,6 @@ impl FilamentPlume {
     /// The plume of a scenario, empty at `begin` seconds; none if the scenario has none.
     pub fn new(scenario: &Scenario, frame: &FlowFrame, begin: f64, seed: u64) -> Option<Self> {
         let settings = scenario.environment.plume.clone()?;
-        let diffusion =
-            |number| (Noise::sub(seed, Stream::Diffusion, number), Noise::sub(seed, Stream::VerticalDiffusion, number));
         let sources = scenario.environment.sources.iter().zip(0..).map(|(source, number)| {
             let (x, y) = frame.to_local(source.at);
             let noise = Noise::sub(seed, Stream::Release, number);
@@ -87,7 +86,7 @@ impl FilamentPlume {
                 leak,
                 release: Some(Release::new(noise, source.rate, source.when, begin)),
                 kernel: Kernel::new(source.peak, source.reference_age, &settings),
-                noises: diffusion(number),
+                diffusion: Diffusion::new(seed, number),
             }
         });
         let patches = scenario.environment.patches.iter().zip(PATCH_STREAMS..).map(|(patch, number)| {
@@ -97,21 +96,22 @@ impl FilamentPlume {
                 leak: None,
                 release: None,
                 kernel: Kernel::new(patch.peak, patch.reference_age, &settings),
-                noises: diffusion(number),
+                diffusion: Diffusion::new(seed, number),
             }
         });
+        let steps = Steps::new(scenario, &settings);
         Some(FilamentPlume {
             origins: sources.chain(patches).collect(),
             blocks: Vec::new(),
-            steps_of: Steps::new(scenario, &settings),
+            bridge: Bridge::new(&settings, steps),
+            steps,
             oldest_patch: scenario.environment.patches.iter().map(|patch| -patch.age).fold(0.0, f64::min),
             length: frame.length,
             width: frame.width,
-            end: begin,
-            step: longest(scenario),
-            end_tick: 0,
-            step_ticks: (settings.step / TICK_S).round() as u64,
-            steps: 0,
+            mean: scenario.environment.flow.mean.length(),
+            zero: (-begin / settings.step).round() as u64,
+            begun: 0,
+            until: 0,
             cells: Cells::default(),
             settings,
         })
@@ -119,10 +119,8 @@ impl FilamentPlume {
 
     /// Fills the region: everything that was released before time 0, and the patches.
     pub fn spin_up(&mut self, water: &mut Water, patches: &[Patch], seed: u64) {
-        let step = self.step;
-        let steps = (-self.end / step).round() as u64;
-        for left in (0..steps).rev() {
-            self.advance(-(left as f64) * step, water);
+        while self.until < self.zero {
+            self.advance(self.steps.of_spin_up.min(self.zero - self.until), water);
         }
         let first = self.origins.len() - patches.len();
         for ((patch, source), number) in patches.iter().zip(first..).zip(0..) {
@@ -137,32 +135,64 @@ impl FilamentPlume {
             let draw = |axis: u64| patch.radius * noise.gaussian(2 * u64::from(number) + axis);
             let (x, y) = (x + draw(0), y + draw(1));
             let birth = -patch.age;
-            self.add(Filament { source: source as u32, number, birth, x, y, z, velocity: [0.0; 3] }, x);
+            self.add(Filament { source: source as u32, number, birth, x, y, z, velocity: [0.0; 3] }, [x, y]);
         }
     }
 
-    /// Takes in a filament that was at `x` along the flow when the step began.
-    fn add(&mut self, filament: Filament, x: f64) {
+    /// Takes in a filament that was at a place when the stride began.
+    fn add(&mut self, filament: Filament, from: [f64; 2]) {
         if !self.blocks.last().is_some_and(Block::is_open) {
-            self.blocks.push(Block::new(self.end, self.steps));
+            self.blocks.push(Block::new());
         }
         if let Some(block) = self.blocks.last_mut() {
-            block.add(filament, x);
+            block.add(filament, from);
         }
     }
 
-    /// Computes steps until the plume is known up to a tick, and with it the water.
+    /// Computes strides until the plume is known up to a tick, and with it the water.
     pub fn advance_to(&mut self, tick: u64, water: &mut Water) {
-        while self.end_tick < tick {
-            self.end_tick += self.step_ticks;
-            self.advance(self.end_tick as f64 * TICK_S, water);
+        let step_ticks = (self.settings.step / TICK_S).round() as u64;
+        while (self.until - self.zero) * step_ticks < tick {
+            self.advance(self.steps.stride, water);
         }
     }
 
-    /// The filaments alive at a time of the last step, and where they are then: m, in the flow frame.
+    /// When a step begins, s.
+    fn time(&self, step: u64) -> f64 {
+        (step as f64 - self.zero as f64) * self.settings.step
+    }
+
+    /// The step of the last stride that a time is in.
+    fn step_at(&self, time: f64) -> u64 {
+        // The cast saturates.
+        let step = (time / self.settings.step + self.zero as f64) as u64;
+        step.clamp(self.begun, self.until.saturating_sub(1).max(self.begun))
+    }
+
+    /// Steps in the last stride.
+    fn stride(&self) -> u64 {
+        self.until - self.begun
+    }
+
+    /// The way of a filament in the last stride.
+    fn way(&self, filament: &Filament) -> Way {
+        self.bridge.whole(filament, self.stride(), self.until, self.time(self.until))
+    }
+
+    /// The filaments alive at a time of the last stride, and where they are then: m, in the flow frame.
     fn at(&self, time: f64) -> impl Iterator<Item = (&Filament, [f64; 3])> {
-        let all = self.blocks.iter().flat_map(move |block| block.filaments.iter().map(move |f| (f, block.end - time)));
-        all.filter(move |(f, _)| f.birth <= time).map(|(f, before)| (f, f.at(before)))
+        let step = self.step_at(time);
+        let all = self.blocks.iter().flat_map(|block| &block.filaments).filter(move |f| f.birth <= time);
+        all.filter_map(move |f| {
+            let way = self.bridge.part(&self.origins, &self.way(f), step, 1, None)?;
+            let [x, y, z] = way.filament.at(self.time(way.end) - time);
+            Some((f, [x, y, self.height(z)]))
+        })
+    }
+
+    /// The height above the bottom of a filament whose walk knows no walls, m.
+    fn height(&self, z: f64) -> f64 {
+        self.settings.layer.map_or(z, |ceiling| folded(z, ceiling))
     }
 
     /// The filaments alive at a time of the last step: where (m, in the flow frame) and how large (m).
@@ -172,58 +202,52 @@ impl FilamentPlume {
         })
     }
 
-    /// A bound of the largest squared radius, m2. Filaments of sources stand in the order of the steps of their release, so that
-    /// none is older than the first alive by more than one step; those of patches are as old as they were said to be.
+    /// A bound of the largest squared radius, m2. Filaments of sources stand in the order of the strides of their release, so that
+    /// none is older than the first alive by more than one stride; those of patches are as old as they were said to be.
     fn largest_squared_radius(&self) -> f64 {
-        let first = self.blocks.iter().find_map(|block| block.filaments.first());
-        let oldest = first.map_or(self.end, |f| f.birth - LONGEST_STEP_S).min(self.oldest_patch);
-        self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (self.end - oldest)
+        let (first, end) = (self.blocks.iter().find_map(|block| block.filaments.first()), self.time(self.until));
+        let oldest = first.map_or(end, |f| f.birth - self.longest_stride()).min(self.oldest_patch);
+        self.settings.initial_radius * self.settings.initial_radius + self.settings.growth * (end - oldest)
     }
 
-    /// One step, to a time.
-    ///
-    /// x += u dt + sqrt(2 K dt) N, Euler, with the flow in the middle of the step: a step is short beside what the flow changes
-    /// over. (pompy multiplies the noise by dt, which makes the diffusivity depend on the time step.) Old filaments take several
-    /// steps at once ([`Steps`]), in the flow of the first of them.
-    fn advance(&mut self, end: f64, water: &mut Water) {
-        (self.step, self.end) = (end - self.end, end);
-        let middle = end - 0.5 * self.step;
+    fn longest_stride(&self) -> f64 {
+        self.steps.of_spin_up as f64 * self.settings.step
+    }
+
+    /// A stride of so many steps.
+    fn advance(&mut self, stride: u64, water: &mut Water) {
+        (self.begun, self.until) = (self.until, self.until + stride);
+        let middle = 0.5 * (self.time(self.begun) + self.time(self.until));
         water.advance_to(middle);
         water.frozen(middle, &mut self.cells);
-        self.steps += 1;
-        self.drift();
-        self.release();
-    }
-
-    /// Moves the blocks whose step is over.
-    fn drift(&mut self) {
-        let (dt, begin) = (self.step, self.end - self.step);
-        let settings = &self.settings;
         let drift = Drift {
             origins: &self.origins,
             cells: &self.cells,
-            step: self.steps,
-            diffusivity: (settings.diffusivity, settings.vertical),
-            ceiling: settings.layer.filter(|_| settings.vertical > 0.0),
+            begun: self.time(self.begun),
+            until: self.until,
+            time: stride as f64 * self.settings.step,
+            half: self.half_way(0.5 * stride as f64 * self.settings.step),
+            diffusivity: (self.settings.diffusivity, self.settings.vertical),
             length: self.length,
             width: self.width,
         };
-        for block in self.blocks.iter_mut().filter(|block| block.until < drift.step) {
-            // What is released in the step joins the open block at its end.
-            let youngest = block.filaments.last().filter(|_| !block.is_open());
-            let at_once = youngest.map_or(1, |f| self.steps_of.at_once(begin - f.birth, dt));
-            let step = at_once as f64 * dt;
-            (block.until, block.end) = (drift.step + at_once - 1, self.end + (at_once - 1) as f64 * dt);
-            block.advance(step, &drift);
-        }
+        self.blocks.iter_mut().for_each(|block| block.advance(&drift));
         self.blocks.retain(|block| block.is_open() || !block.filaments.is_empty());
+        self.release();
     }
 
-    /// Adds what was released during the step, each filament moved from its own moment of release on.
+    /// How far the water goes in some time but for its meanders, m.
+    fn half_way(&self, time: f64) -> (f64, f64) {
+        let (u, v) = self.cells.carried();
+        (time * (self.mean + u), time * v)
+    }
+
+    /// Adds what was released during the stride, each filament moved from its own moment of release on.
     fn release(&mut self) {
+        let end = self.time(self.until);
         for source in 0..self.origins.len() {
-            let Origin { place: [x, y, z], leak, noises: (horizontal, vertical), .. } = self.origins[source];
-            while let Some((number, birth)) = self.origins[source].release.as_mut().and_then(|r| r.before(self.end)) {
+            let Origin { place: [x, y, z], leak, diffusion, .. } = self.origins[source];
+            while let Some((number, birth)) = self.origins[source].release.as_mut().and_then(|r| r.before(end)) {
                 let (x, y) = match leak {
                     None => (x, y),
                     Some(([along, aside], noise)) => {
@@ -231,20 +255,17 @@ impl FilamentPlume {
                         (x + share * along, y + share * aside)
                     }
                 };
-                let (u, v) = self.cells.velocity(x, y);
-                let age = (self.end - birth).max(f64::MIN_POSITIVE);
+                let age = (end - birth).max(f64::MIN_POSITIVE);
+                let half = self.half_way(0.5 * age);
+                let (u, v) = self.cells.velocity(x + half.0, y + half.1);
                 let mut f = Filament { source: source as u32, number, birth, x, y, z, velocity: [0.0; 3] };
-                let index = f.noise_index(self.steps);
-                let (nx, ny) = horizontal.nearly_gaussian_pair(index);
+                let [nx, ny, nz] = diffusion.draw(&f, self.until, -age);
                 let spread = (2.0 * self.settings.diffusivity * age).sqrt();
                 f.x += u * age + spread * nx;
                 f.y += v * age + spread * ny;
-                if let Some(ceiling) = self.settings.layer {
-                    let rise = (2.0 * self.settings.vertical * age).sqrt();
-                    f.z = reflected(z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
-                }
+                f.z += (2.0 * self.settings.vertical * age).sqrt() * nz;
                 f.velocity = [(f.x - x) / age, (f.y - y) / age, (f.z - z) / age];
-                self.add(f, x);
+                self.add(f, [x, y]);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Water and plume as they are computed while a run goes on.
 
 use crate::scenario::Scenario;
-use crate::world::plume::{FilamentPlume, Index, Nearby, spin_up_begin};
+use crate::world::plume::{FilamentPlume, Index, Nearby, ahead as plume_ahead, spin_up_begin};
 use crate::world::survey::Survey;
 use crate::world::water::Water;
 use albacore_geometry::{Point, Vector};
@@ -18,8 +18,9 @@ pub struct Simulated {
 impl Simulated {
     /// Those of a valid scenario at tick 0, with its flow wandering and its plume spread.
     pub fn new(scenario: &Scenario, seed: u64) -> Self {
-        let begin = spin_up_begin(scenario);
-        let mut water = Water::new(&scenario.environment.flow, scenario.environment.region.as_ref(), begin, seed);
+        let (begin, behind) = (spin_up_begin(scenario), plume_ahead(scenario));
+        let (flow, region) = (&scenario.environment.flow, scenario.environment.region.as_ref());
+        let mut water = Water::new(flow, region, begin, behind, seed);
         let mut plume = FilamentPlume::new(scenario, water.frame(), begin, seed);
         if let Some(plume) = &mut plume {
             plume.spin_up(&mut water, &scenario.environment.patches, seed);

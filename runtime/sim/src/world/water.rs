@@ -31,13 +31,14 @@ pub struct Water {
 }
 
 impl Water {
-    /// The water of a scenario, spun up and ready from `begin` seconds (0 or before) on.
-    pub fn new(flow: &Flow, region: Option<&Area>, begin: f64, seed: u64) -> Self {
+    /// The water of a scenario, spun up and ready from `begin` seconds (0 or before) on. Times up to `behind` seconds before the newest
+    /// that was asked for stay known.
+    pub fn new(flow: &Flow, region: Option<&Area>, begin: f64, behind: f64, seed: u64) -> Self {
         let frame = FlowFrame::new(flow, region);
         let current = Some(Current::new(flow)).filter(|current| !current.is_steady());
         let mut water = Water { mean: flow.mean, current, frame, field: None };
         if let Some(meander) = &flow.meander {
-            let mut field = Field::new(meander, &water.frame, begin, flow, seed);
+            let mut field = Field::new(meander, &water.frame, begin, behind, flow, seed);
             field.advance_to(begin, |time| water.carried(time));
             water.field = Some(field);
         }
@@ -49,7 +50,7 @@ impl Water {
         &self.frame
     }
 
-    /// Computes the field up to a time, s. Times up to one field step before it stay known.
+    /// Computes the field up to a time, s.
     pub fn advance_to(&mut self, time: f64) {
         let Some(mut field) = self.field.take() else { return };
         field.advance_to(time, |time| self.carried(time));

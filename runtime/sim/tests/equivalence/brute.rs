@@ -7,6 +7,9 @@ use albacore_sim::{Meander, Noise, Stream};
 /// One step of flow and plume, s.
 const STEP_S: f64 = 1.0;
 
+/// Its field is as fine as may be: the simulator's has cells twice as wide.
+const CELL_M: f64 = 20.0;
+
 /// The numbers of a flat plume in a rectangle along the flow, all SI.
 #[derive(Clone, Copy)]
 pub struct Law {
@@ -189,7 +192,7 @@ impl Law {
             bandwidth,
             damping: meander.damping,
             viscosity: meander.viscosity,
-            cell: meander.cell,
+            cell: CELL_M,
             ..self
         }
     }

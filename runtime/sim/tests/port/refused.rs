@@ -30,7 +30,7 @@ fn impossible_plumes_are_refused() {
             fault(&|s| s.environment.flow.meander.as_mut().unwrap().viscosity = 1.0),
             "too little for cells of 20 m in a flow of up to",
         ),
-        (fault(&|s| s.environment.flow.meander.as_mut().unwrap().cell = 1.0), "make more than 40000 nodes"),
+        (fault(&|s| s.environment.flow.meander.as_mut().unwrap().cell = Some(1.0)), "make more than 40000 nodes"),
     ] {
         assert!(fault.contains(expected), "{fault}");
     }

@@ -1,12 +1,14 @@
-//! Filaments that were released one after the other, and take their steps together.
+//! Filaments that were released one after the other, and stay neighbours in space.
 
+use crate::noise::{Noise, Stream};
 use crate::world::plume::Origin;
+use crate::world::plume::way::Extent;
 use crate::world::water::Cells;
 
 /// Filaments in a block.
 const SIZE: usize = 64;
 
-/// A puff of chemical at the end of its step, in the coordinates of the flow frame (m); one cache line.
+/// A puff of chemical at the end of its stride, in the coordinates of the flow frame (m); one cache line.
 #[derive(Clone, Copy, Debug)]
 pub struct Filament {
     /// Which source released it, and as its how manieth.
@@ -16,51 +18,44 @@ pub struct Filament {
     pub birth: f64,
     pub x: f64,
     pub y: f64,
-    /// Height above the bottom, m.
+    /// Height above the bottom, m, as if there were neither that nor the top of a layer: see [`folded`].
     pub z: f64,
-    /// Its mean velocity over the step, m/s: between steps it moves on a straight line.
+    /// Its mean velocity over the stride, m/s.
     pub velocity: [f64; 3],
 }
 
-/// Neighbours in the order of their release, which stay neighbours in space.
+/// Neighbours in the order of their release.
 #[derive(Clone, Debug)]
 pub struct Block {
     pub filaments: Vec<Filament>,
     /// How many it still takes.
     room: usize,
-    /// When its step ends: s, and in steps of the plume.
-    pub end: f64,
-    pub until: u64,
-    /// Where it is along the flow during its step.
-    along: Reach,
+    /// What holds where they are when the stride begins and when it ends.
+    extent: Extent,
 }
 
-/// What the steps of all blocks at one time have in common.
+/// What the strides of all filaments have in common.
 pub struct Drift<'a> {
     pub origins: &'a [Origin],
     pub cells: &'a Cells,
-    /// Which step of the plume it is.
-    pub step: u64,
+    /// When the stride begins, s, and the plume's step with which it ends.
+    pub begun: f64,
+    pub until: u64,
+    /// How long it is, s.
+    pub time: f64,
+    /// How far the water goes in half of it but for its meanders, m: the flow that moves a filament is that half-way.
+    pub half: (f64, f64),
     /// Horizontal and vertical diffusivity, m2/s.
     pub diffusivity: (f64, f64),
-    /// The top of the layer that they are mirrored at, m; none where their heights stay.
-    pub ceiling: Option<f64>,
     /// What leaves this box leaves the plume, m.
     pub length: f64,
     pub width: f64,
 }
 
-/// An interval along the flow, m.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    low: f64,
-    high: f64,
-}
-
 impl Block {
-    /// An empty one, whose step ends at a time (s) with a step of the plume.
-    pub fn new(end: f64, until: u64) -> Self {
-        Block { filaments: Vec::with_capacity(SIZE), room: SIZE, end, until, along: Reach::default() }
+    /// An empty one.
+    pub fn new() -> Self {
+        Block { filaments: Vec::with_capacity(SIZE), room: SIZE, extent: Extent::default() }
     }
 
     /// Whether it takes more.
@@ -68,47 +63,78 @@ impl Block {
         self.room > 0
     }
 
-    /// Takes a filament that was at `x` along the flow when the step began.
-    pub fn add(&mut self, filament: Filament, x: f64) {
+    /// Takes a filament that was at a place when its stride began.
+    pub fn add(&mut self, filament: Filament, from: [f64; 2]) {
         self.room -= 1;
-        self.along.extend(x);
-        self.along.extend(filament.x);
+        self.extent.extend(from[0], from[1]);
+        self.extent.extend(filament.x, filament.y);
         self.filaments.push(filament);
     }
 
-    /// Whether any of it may be between two places along the flow during its step.
-    pub fn is_between(&self, low: f64, high: f64) -> bool {
-        self.along.low <= high && self.along.high >= low
+    /// Whether any of it may come so near to a place in its stride, m.
+    pub fn comes_near(&self, center: [f64; 2], near: f64) -> bool {
+        self.extent.comes_near(center, near)
     }
 
-    /// One step of so many seconds; what has left is forgotten.
-    pub fn advance(&mut self, dt: f64, drift: &Drift) {
-        let per_dt = 1.0 / dt;
+    /// A stride of all; what has left the plume before it is forgotten.
+    ///
+    /// x += u dt + sqrt(2 K dt) N, with the flow half-way in time and space. (pompy multiplies the noise by dt, which makes the
+    /// diffusivity depend on the time step.)
+    pub fn advance(&mut self, drift: &Drift) {
+        let (dt, per_dt) = (drift.time, 1.0 / drift.time);
         let spread = (2.0 * drift.diffusivity.0 * dt).sqrt();
         let rise = (2.0 * drift.diffusivity.1 * dt).sqrt();
-        let mut left = 0;
-        self.along = Reach::default();
-        for f in &mut self.filaments {
-            let (horizontal, vertical) = drift.origins[f.source as usize].noises;
-            let index = f.noise_index(drift.step);
-            let (u, v) = drift.cells.velocity(f.x, f.y);
-            let (nx, ny) = horizontal.nearly_gaussian_pair(index);
-            let (dx, dy) = (u * dt + spread * nx, v * dt + spread * ny);
-            self.along.extend(f.x);
-            f.x += dx;
-            f.y += dy;
-            self.along.extend(f.x);
-            (f.velocity[0], f.velocity[1]) = (dx * per_dt, dy * per_dt);
-            if let Some(ceiling) = drift.ceiling {
-                let z = reflected(f.z + rise * vertical.nearly_gaussian_pair(index).0, ceiling);
-                f.velocity[2] = (z - f.z) * per_dt;
-                f.z = z;
-            }
-            left += usize::from(drift.has_left(f));
-        }
-        if left > 0 {
+        if self.filaments.iter().any(|f| drift.has_left(f)) {
             self.filaments.retain(|f| !drift.has_left(f));
         }
+        let mut extent = Extent::default();
+        for f in &mut self.filaments {
+            let diffusion = &drift.origins[f.source as usize].diffusion;
+            let (u, v) = drift.cells.velocity(f.x + drift.half.0, f.y + drift.half.1);
+            let [nx, ny, nz] = diffusion.draw(f, drift.until, drift.begun - f.birth);
+            let (dx, dy) = (u * dt + spread * nx, v * dt + spread * ny);
+            extent.extend(f.x, f.y);
+            f.x += dx;
+            f.y += dy;
+            extent.extend(f.x, f.y);
+            (f.velocity[0], f.velocity[1]) = (dx * per_dt, dy * per_dt);
+            f.z += rise * nz;
+            f.velocity[2] = rise * nz * per_dt;
+        }
+        self.extent = extent;
+    }
+}
+
+/// What pushes the filaments of a source about.
+#[derive(Clone, Copy, Debug)]
+pub struct Diffusion {
+    noise: Noise,
+    early: Noise,
+}
+
+/// Until a filament has this age when a stride begins, s, its draws up and down are Gaussian to the last: where the plume rises to a vehicle
+/// first is told by the few that rise fastest, and they have had few draws.
+const EARLY_S: f64 = 512.0;
+
+impl Diffusion {
+    /// That of a source by its number.
+    pub fn new(seed: u64, number: u32) -> Self {
+        Diffusion {
+            noise: Noise::sub(seed, Stream::Diffusion, number),
+            early: Noise::sub(seed, Stream::VerticalDiffusion, number),
+        }
+    }
+
+    /// The draws of a filament for a step of the plume, along the flow, across it and up, where it has an age when the stride begins, s.
+    #[inline]
+    pub fn draw(&self, filament: &Filament, step: u64, age: f64) -> [f64; 3] {
+        // They are its own, whatever else is alive.
+        let index = u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF);
+        let mut draws = self.noise.nearly_gaussian_triple(index);
+        if age < EARLY_S {
+            draws[2] = self.early.gaussian(index);
+        }
+        draws
     }
 }
 
@@ -121,42 +147,28 @@ impl Drift<'_> {
 }
 
 impl Filament {
-    /// The draws of a filament at a step are its own, whatever else is alive.
-    pub fn noise_index(&self, step: u64) -> u64 {
-        u64::from(self.number) << 32 | (step & 0xFFFF_FFFF)
-    }
-
-    /// Where it was some seconds before the end of its step.
+    /// Where it was some seconds before.
     #[inline]
     pub fn at(&self, before: f64) -> [f64; 3] {
         let [u, v, w] = self.velocity;
         [self.x - before * u, self.y - before * v, self.z - before * w]
     }
 
-    /// The same on its way, some seconds before the end of its step.
+    /// The same on its way, some seconds before.
     pub fn back(mut self, before: f64) -> Self {
         [self.x, self.y, self.z] = self.at(before);
         self
     }
 }
 
-impl Default for Reach {
-    fn default() -> Self {
-        Reach { low: f64::INFINITY, high: f64::NEG_INFINITY }
-    }
-}
-
-impl Reach {
-    #[inline]
-    fn extend(&mut self, x: f64) {
-        // Not `min` and `max`: those also cater for what is not a number.
-        self.low = if x < self.low { x } else { self.low };
-        self.high = if x > self.high { x } else { self.high };
-    }
-}
-
-/// A height mirrored at the bottom and at the ceiling of the layer.
-pub fn reflected(z: f64, ceiling: f64) -> f64 {
+/// A height between the bottom and the top of a layer, mirrored at both as often as it takes: a walk that is folded is one between
+/// walls that throw it back.
+#[inline]
+pub fn folded(z: f64, ceiling: f64) -> f64 {
     let up = z.abs();
-    (if up > ceiling { 2.0 * ceiling - up } else { up }).clamp(0.0, ceiling)
+    if up <= ceiling {
+        return up;
+    }
+    let within = up % (2.0 * ceiling);
+    if within > ceiling { 2.0 * ceiling - within } else { within }
 }

@@ -1,7 +1,7 @@
 //! What one filament adds to the reading at a point.
 
-use crate::world::plume::Filament;
-use crate::world::plume::Plume;
+use crate::world::plume::block::folded;
+use crate::world::plume::{Filament, Plume};
 use albacore_geometry::math::exp;
 
 /// A filament ends at this many radii: what is cut off is below 4e-6 of its peak.
@@ -43,7 +43,8 @@ impl Kernel {
     /// The reading of a filament at a place (m), `before` seconds before the time it stands at and at an age.
     pub fn reading(&self, filament: &Filament, before: f64, age: f64, place: [f64; 3]) -> f64 {
         let r2 = self.squared_radius(age);
-        let share = share(filament.at(before), r2, self.layer, place);
+        let [x, y, z] = filament.at(before);
+        let share = share([x, y, self.layer.map_or(z, |ceiling| folded(z, ceiling))], r2, self.layer, place);
         if share > 0.0 { self.strength(r2) * share } else { 0.0 }
     }
 }

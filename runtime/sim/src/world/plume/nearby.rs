@@ -1,10 +1,15 @@
 //! The reading at a point: the sum over the filaments near it, found once a plume step for the whole neighbourhood.
 
 use crate::world::plume::kernel::CUT_RADII;
+use crate::world::plume::way::{Near, Way};
 use crate::world::plume::{Filament, FilamentPlume};
 
-/// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 1 s.
-const NEIGHBOURHOOD_M: f64 = 3.0;
+/// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 2 s.
+const NEIGHBOURHOOD_M: f64 = 2.2;
+/// Searches within this distance of each other share a wide one, m.
+const WIDE_M: f64 = 24.0;
+/// A wide search is for so many steps of the plume.
+const WIDE_STEPS: u64 = 16;
 
 /// Copies of the filaments that can matter within a neighbourhood during one step.
 ///
@@ -14,50 +19,86 @@ const NEIGHBOURHOOD_M: f64 = 3.0;
 #[derive(Clone, Debug, Default)]
 pub struct Nearby {
     center: [f64; 2],
-    /// The plume's step that the search was made in; 0 before the first.
-    steps: u64,
+    /// The plume's step that the search was made in; none before the first.
+    step: Option<u64>,
     /// As they are at the end of that step.
     filaments: Vec<Filament>,
+    wide: Wide,
+}
+
+/// The ways of all filaments that can matter farther round, during several steps.
+#[derive(Clone, Debug, Default)]
+struct Wide {
+    center: [f64; 2],
+    /// The first of the plume's steps that it was made for; none before the first search.
+    first: Option<u64>,
+    ways: Vec<Way>,
 }
 
 impl Nearby {
     /// The reading, as a ratio of full scale, at a place (m, in the flow frame; height above the bottom) and a time of the
-    /// plume's last step. It is not limited to full scale. Above the plume's layer it is zero.
+    /// plume's last stride. It is not limited to full scale. Above the plume's layer it is zero.
     pub fn reading(&mut self, plume: &FilamentPlume, place: [f64; 3], time: f64) -> f64 {
         if plume.settings.layer.is_some_and(|ceiling| place[2] > ceiling) {
             return 0.0;
         }
         let [x, y, _] = place;
-        let (dx, dy) = (x - self.center[0], y - self.center[1]);
-        if self.steps != plume.steps || dx * dx + dy * dy > NEIGHBOURHOOD_M * NEIGHBOURHOOD_M {
-            self.search(plume, [x, y]);
+        let step = plume.step_at(time);
+        if self.step != Some(step) || !is_within(NEIGHBOURHOOD_M, [x, y], self.center) {
+            self.search(plume, [x, y], step);
         }
-        let before = plume.end - time;
+        let before = plume.time(step + 1) - time;
+        let (initial, growth) = (plume.settings.initial_radius * plume.settings.initial_radius, plume.settings.growth);
         let mut sum = 0.0;
         for f in &self.filaments {
             let age = time - f.birth;
-            if age >= 0.0 {
+            // Most of them are too far away: what such a filament reads is exactly zero.
+            let (dx, dy) = (f.x - before * f.velocity[0] - place[0], f.y - before * f.velocity[1] - place[1]);
+            if age >= 0.0 && dx * dx + dy * dy <= CUT_RADII * CUT_RADII * (initial + growth * age) {
                 sum += plume.origins[f.source as usize].kernel.reading(f, before, age, place);
             }
         }
         sum
     }
 
-    fn search(&mut self, plume: &FilamentPlume, center: [f64; 2]) {
-        (self.center, self.steps) = (center, plume.steps);
-        let reach = NEIGHBOURHOOD_M + CUT_RADII * plume.largest_squared_radius().sqrt();
-        let half = 0.5 * plume.step;
-        // The interval of a coordinate over the step: its middle, give or take half the way.
-        let within = |end: f64, velocity: f64, center: f64| {
-            (end - half * velocity - center).abs() <= reach + half * velocity.abs()
-        };
+    fn search(&mut self, plume: &FilamentPlume, center: [f64; 2], step: u64) {
+        (self.center, self.step) = (center, Some(step));
+        let (wide, steps) = (&mut self.wide, WIDE_STEPS.min(plume.stride()).max(1));
+        let first = step - step % steps;
+        if wide.first != Some(first) || !is_within(WIDE_M, center, wide.center) {
+            wide.search(plume, center, step, steps);
+            wide.first = Some(first);
+        }
+        let step_s = plume.settings.step;
+        let near = Near { center, within: NEIGHBOURHOOD_M };
         self.filaments.clear();
-        for block in plume.blocks.iter().filter(|block| block.is_between(center[0] - reach, center[0] + reach)) {
-            let before = block.end - plume.end;
-            let alongside = block.filaments.iter().map(|f| f.back(before));
-            self.filaments.extend(
-                alongside.filter(|f| within(f.x, f.velocity[0], center[0]) && within(f.y, f.velocity[1], center[1])),
-            );
+        for way in &wide.ways {
+            if let Some(part) = plume.bridge.part(&plume.origins, way, step, 1, Some(near)) {
+                let of_step = part.step((part.end as f64 - (step + 1) as f64) * step_s, step_s);
+                if of_step.reaches(near) {
+                    self.filaments.push(of_step.filament);
+                }
+            }
         }
     }
+}
+
+impl Wide {
+    /// Searches for so many steps, of which one is given.
+    fn search(&mut self, plume: &FilamentPlume, center: [f64; 2], step: u64, steps: u64) {
+        self.center = center;
+        self.ways.clear();
+        let near = Near { center, within: NEIGHBOURHOOD_M + WIDE_M };
+        let reach = CUT_RADII * plume.largest_squared_radius().sqrt();
+        let near_block = near.within + reach + plume.bridge.farthest_off(plume.stride(), 1);
+        for block in plume.blocks.iter().filter(|block| block.comes_near(center, near_block)) {
+            let ways = block.filaments.iter().map(|f| plume.way(f));
+            self.ways.extend(ways.filter_map(|way| plume.bridge.part(&plume.origins, &way, step, steps, Some(near))));
+        }
+    }
+}
+
+fn is_within(distance: f64, a: [f64; 2], b: [f64; 2]) -> bool {
+    let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
+    dx * dx + dy * dy <= distance * distance
 }

@@ -1,7 +1,7 @@
 //! The plume: what a scenario says of it, and what of that cannot be.
 
 use crate::scenario::{Scenario, ScenarioIssues, number};
-use crate::world::plume::{LONGEST_PLUME_STEP_S, stays_in_layer};
+use crate::world::plume::LONGEST_STEP_S;
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
 
@@ -21,7 +21,8 @@ pub struct Plume {
     pub layer: Option<f64>,
     /// Time step, s: a whole number of ticks, 5 s at most. Default 1. Statistics do not depend on it.
     pub step: f64,
-    /// Whether old filaments, whose radius hides it, go in longer steps. Default true. Nor does anything depend on this.
+    /// Whether filaments go in strides of many steps, in which their ways are found where somebody looks. Default true. Nor does
+    /// anything depend on this.
     pub graded: bool,
 }
 
@@ -56,27 +57,17 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
         "`plume` needs a `flow` that carries it",
         "give the scenario one: `flow(12 cm/s toward 140 deg)`, for example",
     );
-    match plume.layer {
-        Some(layer) => {
-            of.unless(
-                Some("vertical"),
-                stays_in_layer(plume, LONGEST_PLUME_STEP_S) || layer <= 0.0,
-                format!("`vertical` of `plume` mixes a `layer` of {} m within seconds", number(layer)),
-                "make `vertical` smaller, or leave both out for a flat plume",
-            );
-        }
-        None => of.unless(
-            Some("vertical"),
-            plume.vertical <= 0.0,
-            "`vertical` of `plume` needs a `layer`: the height that holds the plume",
-            "add one, such as `layer: 3.5 m`, or leave `vertical` out",
-        ),
-    }
+    of.unless(
+        Some("vertical"),
+        plume.layer.is_some() || plume.vertical <= 0.0,
+        "`vertical` of `plume` needs a `layer`: the height that holds the plume",
+        "add one, such as `layer: 3.5 m`, or leave `vertical` out",
+    );
     let ticks = plume.step / TICK_S;
     of.unless(
         Some("step"),
-        plume.step >= TICK_S && plume.step <= LONGEST_PLUME_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
+        plume.step >= TICK_S && plume.step <= LONGEST_STEP_S && (ticks - ticks.round()).abs() < 1e-9,
         format!("`step` of `plume` is {} s", number(plume.step)),
-        format!("it must be a whole number of ticks of {TICK_S} s, and {LONGEST_PLUME_STEP_S} s at most"),
+        format!("it must be a whole number of ticks of {TICK_S} s, and {LONGEST_STEP_S} s at most"),
     );
 }

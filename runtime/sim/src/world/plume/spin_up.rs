@@ -2,7 +2,7 @@
 
 use crate::scenario::Scenario;
 use crate::world::plume::SPIN_UP_MAX_S;
-use crate::world::plume::steps::longest;
+use crate::world::plume::steps::spin_up_stride;
 use crate::world::water::{Current, FlowFrame};
 
 /// The spin-up lasts this many times the mean flow's time from the farthest source to the down-flow end.
@@ -11,7 +11,7 @@ const SPIN_UP_TRANSITS: f64 = 1.15;
 const TRANSIT_STEP_S: f64 = 60.0;
 
 /// When the spin-up begins, s: so long before 0 that what was released earlier has left its box by 0. Nobody looks before 0, so
-/// that all steps are as long as they may be: a whole number of them.
+/// that all strides are as long as they may be: a whole number of them.
 pub fn begin(scenario: &Scenario) -> f64 {
     if scenario.environment.plume.is_none() || scenario.environment.sources.is_empty() {
         return 0.0;
@@ -25,8 +25,8 @@ pub fn begin(scenario: &Scenario) -> f64 {
     } else {
         emptied_in(&current, SPIN_UP_TRANSITS * frame.length, SPIN_UP_TRANSITS * frame.width, &frame)
     };
-    let step = longest(scenario);
-    -(transit / step).ceil() * step
+    let stride = spin_up_stride(scenario);
+    -(transit / stride).ceil() * stride
 }
 
 /// How long before 0 the water was elsewhere by so much along or across the flow (m) at some time since, s: a bit more than

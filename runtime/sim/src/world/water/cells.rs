@@ -38,6 +38,11 @@ impl Cells {
         self.carried = velocity;
     }
 
+    /// What is added everywhere, m/s.
+    pub fn carried(&self) -> (f64, f64) {
+        self.carried
+    }
+
     /// Velocity along and to the right of the mean flow, m/s, at a place within the grid.
     #[inline]
     pub fn velocity(&self, x: f64, y: f64) -> (f64, f64) {

@@ -18,31 +18,34 @@ pub struct Field {
     half_viscosity: f64,
     step: f64,
     corners: ColouredNoise,
-    /// The last three states, oldest first, so that a reader may lag by up to two steps.
-    frames: [Nodes; 3],
+    /// The last states, each in the place of its time, so that a reader may lag.
+    frames: Vec<Nodes>,
     /// Time of the newest state, in steps.
     newest: i64,
+    /// What a step is cut with.
+    between: Nodes,
 }
 
 impl Field {
     /// The field of a meander in a box, one advective time before `begin` seconds: [`Field::advance_to`] that time, and it has
-    /// forgotten its start.
-    pub fn new(meander: &Meander, frame: &FlowFrame, begin: f64, flow: &Flow, seed: u64) -> Self {
+    /// forgotten its start. Times up to `behind` seconds before the newest that was asked for stay known.
+    pub fn new(meander: &Meander, frame: &FlowFrame, begin: f64, behind: f64, flow: &Flow, seed: u64) -> Self {
         let (mean_speed, speed) = (flow.mean.length(), flow.speed());
         let mesh = Mesh::new(meander, frame, speed);
-        let noise = Noise::new(seed, Stream::FlowCorners);
+        let (noise, step) = (Noise::new(seed, Stream::FlowCorners), meander.step());
         let sigma = meander.direction_sd * speed;
-        let corners = ColouredNoise::new(noise, sigma, TAU / meander.period, meander.damping, Meander::STEP_S);
+        let corners = ColouredNoise::new(noise, sigma, TAU / meander.period, meander.damping, step);
         let blank = Nodes { u: vec![0.0; mesh.nodes()], v: vec![0.0; mesh.nodes()] };
-        let spin_up = (frame.length / speed / Meander::STEP_S).ceil();
+        let spin_up = (frame.length / speed / step).ceil();
         let mut field = Field {
             mesh,
             mean: mean_speed,
             half_viscosity: 0.5 * meander.viscosity,
-            step: Meander::STEP_S,
+            step,
             corners,
-            frames: [blank.clone(), blank.clone(), blank],
-            newest: ((begin / Meander::STEP_S).floor() - spin_up) as i64,
+            frames: vec![blank.clone(); (behind / step).ceil() as usize + 3],
+            between: blank,
+            newest: ((begin / step).floor() - spin_up) as i64,
         };
         let start = field.boundary();
         field.frames.iter_mut().for_each(|nodes| fill(nodes, &field.mesh, &start, Part::All));
@@ -60,7 +63,7 @@ impl Field {
     /// Velocity along and to the right of the mean flow, m/s: bilinear in space, linear in time.
     pub fn velocity(&self, x: f64, y: f64, time: f64) -> (f64, f64) {
         let (late, share) = self.bracket(time);
-        let [early, late] = self.states(late);
+        let [early, late] = [late - 1, late].map(|state| &self.frames[self.place(state)]);
         let m = &self.mesh;
         let (column, fx) = cell_of(x / m.dx, m.columns - 1);
         let (row, fy) = cell_of(y / m.dy, m.rows - 1);
@@ -76,26 +79,24 @@ impl Field {
 
     /// The state nearest to a time, as coefficients of cells: a step is short beside what the field changes over.
     pub fn frozen(&self, time: f64, cells: &mut Cells) {
-        let [oldest, middle, newest] = &self.frames;
-        let back = self.newest as f64 - time / self.step;
-        let (before, nodes) = match back {
-            ..0.5 => (0, newest),
-            ..1.5 => (1, middle),
-            _ => (2, oldest),
-        };
-        cells.freeze(&self.mesh, self.newest - before, nodes);
+        let state = ((time / self.step).round() as i64).clamp(self.oldest(), self.newest);
+        cells.freeze(&self.mesh, state, &self.frames[self.place(state)]);
     }
 
     /// The later of the two states round a time, in steps, and how far the time is from the earlier to it.
     fn bracket(&self, time: f64) -> (i64, f64) {
-        let back = self.newest as f64 - time / self.step;
-        if back <= 1.0 { (self.newest, (1.0 - back).min(1.0)) } else { (self.newest - 1, (2.0 - back).max(0.0)) }
+        let steps = time / self.step;
+        let late = (steps.ceil() as i64).clamp(self.oldest() + 1, self.newest);
+        (late, (steps - (late - 1) as f64).clamp(0.0, 1.0))
     }
 
-    /// The state of a step, one of the last two, and the one before it.
-    fn states(&self, late: i64) -> [&Nodes; 2] {
-        let [oldest, middle, newest] = &self.frames;
-        if late == self.newest { [middle, newest] } else { [oldest, middle] }
+    fn oldest(&self) -> i64 {
+        self.newest - (self.frames.len() as i64 - 1)
+    }
+
+    /// Where a state is among the last.
+    fn place(&self, state: i64) -> usize {
+        state.rem_euclid(self.frames.len() as i64) as usize
     }
 
     /// Velocity components at the corners: up-flow left, down-flow left, up-flow right, down-flow right.
@@ -108,15 +109,17 @@ impl Field {
     fn advance(&mut self, carried: (f64, f64)) {
         self.corners.step();
         let boundary = self.boundary();
-        self.frames.rotate_left(1);
-        let [_, old, new] = &mut self.frames;
-        fill(new, &self.mesh, &boundary, Part::Edges);
+        let (old, place) = (self.place(self.newest), self.place(self.newest + 1));
+        let mut new = std::mem::take(&mut self.frames[place]);
+        fill(&mut new, &self.mesh, &boundary, Part::Edges);
         let time = self.step / self.mesh.substeps;
-        euler(old, new, &self.mesh, self.half_viscosity, time, carried);
+        euler(&self.frames[old], &mut new, &self.mesh, self.half_viscosity, time, carried);
         for _ in 1..self.mesh.substeps as usize {
-            let from = new.clone();
-            euler(&from, new, &self.mesh, self.half_viscosity, time, carried);
+            std::mem::swap(&mut self.between, &mut new);
+            fill(&mut new, &self.mesh, &boundary, Part::Edges);
+            euler(&self.between, &mut new, &self.mesh, self.half_viscosity, time, carried);
         }
+        self.frames[place] = new;
         self.newest += 1;
     }
 }
@@ -187,7 +190,7 @@ mod tests {
         let direction = Heading::from_degrees(140.0);
         let flow = Flow { mean: 0.125 * direction.unit(), meander: Some(meander.clone()), ..Flow::default() };
         let region = Area::rectangle(Point::ORIGIN, direction, 1094.0, 367.0);
-        let mut field = Field::new(meander, &FlowFrame::new(&flow, Some(&region)), 0.0, &flow, seed);
+        let mut field = Field::new(meander, &FlowFrame::new(&flow, Some(&region)), 0.0, 10.0, &flow, seed);
         field.advance_to(0.0, STILL);
         field
     }
@@ -201,9 +204,9 @@ mod tests {
     #[test]
     fn frozen_cells_and_direct_look_up_agree() {
         let mut field = duck(&Meander::default(), 5);
-        field.advance_to(12.0, STILL);
+        field.advance_to(48.0, STILL);
         let mut cells = Cells::default();
-        for (time, nearest) in [(7.4, 5.0), (12.0, 10.0), (14.9, 15.0)] {
+        for (time, nearest) in [(29.6, 20.0), (48.0, 40.0), (59.6, 60.0)] {
             field.frozen(time, &mut cells);
             for (x, y) in [(0.0, 0.0), (607.0, 243.0), (1213.9, 486.9), (20.3, 477.7), (333.3, 77.7)] {
                 let (direct, frozen) = (field.velocity(x, y, nearest), cells.velocity(x, y));
@@ -241,7 +244,7 @@ mod tests {
     #[test]
     fn finer_cells_give_the_same_field() {
         let (mut coarse, mut fine) =
-            (duck(&Meander::default(), 3), duck(&Meander { cell: 10.0, ..Meander::default() }, 3));
+            (duck(&Meander::default(), 3), duck(&Meander { cell: Some(10.0), ..Meander::default() }, 3));
         assert!(fine.mesh.substeps > coarse.mesh.substeps);
         coarse.advance_to(1000.0, STILL);
         fine.advance_to(1000.0, STILL);

@@ -12,9 +12,6 @@ const SUBSTEPS_MAX: f64 = 50.0;
 const SPIN_UP_WORK_MAX: f64 = 2e9;
 /// Share of the explicit scheme's stability limit that a sub-step uses.
 const STABILITY: f64 = 0.8;
-/// Corner speeds beyond the mean that stability allows for, in standard deviations.
-const DEVIATIONS: f64 = 4.0;
-
 /// The grid of a field: nodes with their spacing, and the step that is stable on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh {
@@ -29,7 +26,7 @@ pub struct Mesh {
 }
 
 /// Velocities at the nodes, m/s along and to the right of the mean flow; row after row along the flow.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Nodes {
     pub u: Vec<f64>,
     pub v: Vec<f64>,
@@ -48,21 +45,20 @@ pub struct MeshFault {
 /// Why a meander cannot be computed on its grid, if it cannot.
 pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Option<MeshFault> {
     let fault = |param: &'static str, message: String, mend: String| Some(MeshFault { param, message, mend });
-    // Centred differences oscillate when a cell's Peclet number u dx / (k/2) exceeds 2.
-    let fastest = fastest(meander, mean_speed);
-    let least = fastest * meander.cell;
+    let (fastest, cell) = (meander.fastest(mean_speed), meander.side(mean_speed));
+    let least = fastest * cell;
     if meander.viscosity < least {
         let message = format!(
             "`viscosity` of `flow` is {} m2/s: too little for cells of {} m in a flow of up to {fastest:.2} m/s",
             number(meander.viscosity),
-            number(meander.cell)
+            number(cell)
         );
         let (enough, smaller) = ((least * 10.0).ceil() / 10.0, rounded_down(meander.viscosity / fastest));
         return fault("viscosity", message, format!("make it {enough} m2/s or more, or `cell` {smaller} m or less"));
     }
-    let nodes = (frame.length / meander.cell + 1.0) * (frame.width / meander.cell + 1.0);
+    let nodes = (frame.length / cell + 1.0) * (frame.width / cell + 1.0);
     if nodes > NODES_MAX {
-        let cell = number(meander.cell);
+        let cell = number(cell);
         let message = format!("cells of {cell} m over the region make more than {NODES_MAX} nodes");
         return fault("cell", message, "make `cell` larger, or the region smaller".into());
     }
@@ -72,7 +68,7 @@ pub fn mesh_fault(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Opti
         return fault("cell", message, "make `cell` larger, or `viscosity` smaller".into());
     }
     let transit = frame.length / mean_speed;
-    let work = transit / Meander::STEP_S * mesh.substeps * mesh.nodes() as f64;
+    let work = transit / meander.step() * mesh.substeps * mesh.nodes() as f64;
     if work > SPIN_UP_WORK_MAX {
         let message = format!(
             "the flow is so slow that it takes {} to cross the region: its meander is computed for as long before a run",
@@ -92,22 +88,18 @@ fn about(seconds: f64) -> String {
     }
 }
 
-/// The speed to be ready for, m/s.
-fn fastest(meander: &Meander, mean_speed: f64) -> f64 {
-    mean_speed * (1.0 + DEVIATIONS * meander.direction_sd)
-}
-
 impl Mesh {
     /// The mesh of a meander over a box.
-    pub fn new(meander: &Meander, frame: &FlowFrame, mean_speed: f64) -> Self {
-        let count = |length: f64| (length / meander.cell).round().max(2.0);
+    pub fn new(meander: &Meander, frame: &FlowFrame, speed: f64) -> Self {
+        let cell = meander.side(speed);
+        let count = |length: f64| (length / cell).round().max(2.0);
         let (nx, ny) = (count(frame.length), count(frame.width));
         let (dx, dy) = (frame.length / nx, frame.width / ny);
         let d = 0.5 * meander.viscosity;
         // Forward in time, centred in space: 2 D dt (1/dx^2 + 1/dy^2) <= 1 and u^2 dt <= 2 D.
-        let speed = fastest(meander, mean_speed);
+        let speed = meander.fastest(speed);
         let rate = (2.0 * d * (1.0 / (dx * dx) + 1.0 / (dy * dy))).max(2.0 * speed * speed / (2.0 * d));
-        let substeps = (Meander::STEP_S * rate / STABILITY).ceil().max(1.0);
+        let substeps = (meander.step() * rate / STABILITY).ceil().max(1.0);
         Mesh { columns: nx as usize + 1, rows: ny as usize + 1, dx, dy, substeps }
     }
 

@@ -5,6 +5,7 @@ use crate::world::water::{FlowFrame, mesh_fault};
 use albacore_geometry::math::{PI, TAU, sin};
 use albacore_geometry::{Heading, Vector};
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 
 /// The water's motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +41,7 @@ pub struct MeanFlow {
     damping: f64,
     viscosity: f64,
     margin: f64,
-    cell: f64,
+    cell: Option<f64>,
 }
 
 impl From<MeanFlow> for (Vector, Option<Meander>) {
@@ -143,15 +144,36 @@ pub struct Meander {
     pub damping: f64,
     /// Twice the eddy viscosity of the field, m2/s: Farrell's k_x = k_y. Default 27.
     pub viscosity: f64,
-    /// Side of a grid cell, about, m. Default 20.
-    pub cell: f64,
+    /// Side of a grid cell, about, m. Default none: as large as the viscosity allows in this flow, from 20 m to 40 m.
+    pub cell: Option<f64>,
     /// How far the grid reaches beyond the region on every side, m. Default 60.
     pub margin: f64,
 }
 
 impl Meander {
-    /// Time step of the field, s.
-    pub const STEP_S: f64 = 5.0;
+    /// Time step of the field, s: a hundredth of the period, from 5 s to 20 s.
+    pub fn step(&self) -> f64 {
+        (0.01 * self.period).clamp(5.0, 20.0)
+    }
+}
+
+/// Cells are so large where nothing is said of them, m.
+const CELLS: RangeInclusive<f64> = 20.0..=40.0;
+/// Corner speeds beyond the mean that a field is ready for, in standard deviations.
+const DEVIATIONS: f64 = 4.0;
+
+impl Meander {
+    /// The speed to be ready for where the mean flow and the tides have this one at most, m/s.
+    pub fn fastest(&self, speed: f64) -> f64 {
+        speed * (1.0 + DEVIATIONS * self.direction_sd)
+    }
+
+    /// The side of a cell in a flow whose mean and tides have this speed at most, about, m. Centred differences oscillate when a cell's
+    /// Peclet number u dx / (k/2) exceeds 2.
+    pub fn side(&self, speed: f64) -> f64 {
+        let allowed = self.viscosity / self.fastest(speed);
+        self.cell.unwrap_or(allowed.max(*CELLS.start()).min(*CELLS.end()))
+    }
 }
 
 impl Default for Meander {
@@ -161,7 +183,7 @@ impl Default for Meander {
             period: 2732.0,
             damping: 0.1,
             viscosity: 27.0,
-            cell: 20.0,
+            cell: None,
             margin: 60.0,
         }
     }

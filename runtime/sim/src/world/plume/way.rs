@@ -1,0 +1,209 @@
+//! The way of a filament within a stride: a Brownian bridge between its ends, found half by half where somebody looks.
+//!
+//! A place half-way is the middle of the straight line and a draw of variance K T / 2 for T seconds (Levy's construction), whose number
+//! is that of the plume's step. So the water is the same wherever, and in whatever order, one looks.
+
+use crate::world::plume::block::Filament;
+use crate::world::plume::kernel::CUT_RADII;
+use crate::world::plume::{Origin, Plume, Steps};
+
+/// The bound of a diffusion's draw, in standard deviations ([`Noise::nearly_gaussian_triple`](crate::Noise)).
+const LARGEST_DRAW: f64 = 2.98;
+/// A bridge is off its line by this many of the largest draws half-way, at most: 1 + 1/sqrt 2 + 1/2 + … = 1 / (1 - 1/sqrt 2).
+const HALVES: f64 = 3.4143;
+/// No stride has more steps than two to this.
+const DEEPEST: usize = 12;
+
+/// A part of a filament's way, between two steps of the plume.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// As it is at the end, with the mean velocity.
+    pub filament: Filament,
+    /// From this step, or its birth since, until that.
+    pub begin: u64,
+    pub end: u64,
+    /// How long, s.
+    pub time: f64,
+    /// The age of the filament when the stride begins, s, and how many steps it goes straight on in it.
+    age: f64,
+    straight: u64,
+    /// How far off the straight line from its begin to its end it is along an axis at most, m.
+    off: f64,
+    /// How far from its middle it reads anything, m.
+    reach: f64,
+}
+
+/// A place, and how near to it something must reach, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Near {
+    pub center: [f64; 2],
+    pub within: f64,
+}
+
+/// What the ways of a plume's filaments have in common.
+#[derive(Clone, Debug)]
+pub struct Bridge {
+    steps: Steps,
+    /// Horizontal and vertical diffusivity, m2/s.
+    diffusivity: (f64, f64),
+    /// Squared radius at release and its growth, m2 and m2/s.
+    initial: f64,
+    growth: f64,
+    /// Of half a way of 2^i steps that begins and ends with one.
+    halves: [Half; DEEPEST],
+}
+
+/// Half a way.
+#[derive(Clone, Copy, Debug, Default)]
+struct Half {
+    /// How long, s, and its inverse.
+    time: f64,
+    per_time: f64,
+    /// The deviations of the place at which it begins or ends, horizontally and up and down, m.
+    spread: f64,
+    rise: f64,
+    /// What a way of so many steps is off at most where it goes straight nowhere, m.
+    off: f64,
+}
+
+impl Bridge {
+    /// That of a plume.
+    pub fn new(plume: &Plume, steps: Steps) -> Self {
+        let half = |i: usize| {
+            let time = (1u64 << i) as f64 * steps.step;
+            // 2 K T1 T2 / (T1 + T2), where both are T.
+            let spread = (plume.diffusivity * time).sqrt();
+            let off = LARGEST_DRAW * HALVES * (0.5 * plume.diffusivity * time).sqrt();
+            Half { time, per_time: 1.0 / time, spread, rise: (plume.vertical * time).sqrt(), off }
+        };
+        Bridge {
+            steps,
+            diffusivity: (plume.diffusivity, plume.vertical),
+            initial: plume.initial_radius * plume.initial_radius,
+            growth: plume.growth,
+            halves: std::array::from_fn(half),
+        }
+    }
+
+    /// The way of a filament in a stride of so many steps, which ends with one at a time (s).
+    pub fn whole(&self, filament: &Filament, steps: u64, end: u64, end_s: f64) -> Way {
+        let (time, age) = (steps as f64 * self.steps.step, end_s - filament.birth);
+        let straight = self.steps.straight((age - time).max(0.0));
+        Way {
+            age: age - time,
+            filament: *filament,
+            begin: end - steps,
+            end,
+            time: time.min(age),
+            straight,
+            off: self.farthest_off(steps, straight),
+            reach: CUT_RADII * (self.initial + self.growth * age).sqrt(),
+        }
+    }
+
+    /// The part of a way in which a filament is at a step of the plume: of so many steps, or of as many as it goes straight on. None if it
+    /// reaches nothing near in it.
+    pub fn part(&self, origins: &[Origin], way: &Way, step: u64, steps: u64, near: Option<Near>) -> Option<Way> {
+        let is_far = |way: &Way| near.is_some_and(|near| !way.reaches(near));
+        if is_far(way) {
+            return None;
+        }
+        let (mut way, most) = (*way, way.straight.max(steps));
+        while way.end - way.begin > most {
+            self.halve(origins, &mut way, step);
+            if is_far(&way) {
+                return None;
+            }
+        }
+        Some(way)
+    }
+
+    /// Takes the half of a way in which a step is.
+    #[inline]
+    fn halve(&self, origins: &[Origin], way: &mut Way, step: u64) {
+        let middle = way.begin.midpoint(way.end);
+        let depth = (way.end - middle).ilog2() as usize;
+        let Half { time: after, per_time, mut spread, mut rise, .. } = self.halves[depth.min(DEEPEST - 1)];
+        let (before, mut per_before) = (way.time - after, per_time);
+        way.off = self.farthest_off(middle - way.begin, way.straight);
+        if before < 0.999 * after {
+            // Released in the second half.
+            if before <= 0.0 {
+                way.begin = middle;
+                return;
+            }
+            let variance = 2.0 * before * after / way.time;
+            (spread, rise) = ((variance * self.diffusivity.0).sqrt(), (variance * self.diffusivity.1).sqrt());
+            per_before = 1.0 / before;
+        }
+        let f = &mut way.filament;
+        let [nx, ny, nz] = origins[f.source as usize].diffusion.draw(f, middle, way.age);
+        let off = [spread * nx, spread * ny, rise * nz];
+        if step < middle {
+            let at = f.at(after);
+            [f.x, f.y, f.z] = [at[0] + off[0], at[1] + off[1], at[2] + off[2]];
+            (0..3).for_each(|i| f.velocity[i] += off[i] * per_before);
+            (way.end, way.time) = (middle, before);
+        } else {
+            (0..3).for_each(|i| f.velocity[i] -= off[i] * per_time);
+            (way.begin, way.time) = (middle, after);
+        }
+    }
+
+    /// How far off its line in so many steps a filament can be along an axis, m, that goes straight on in parts of them.
+    pub fn farthest_off(&self, steps: u64, straight: u64) -> f64 {
+        // The halves are off by a geometric series.
+        let root = |steps: u64| self.halves[(steps.max(1).ilog2() as usize).min(DEEPEST - 1)].off;
+        (root(steps) - root(straight)).max(0.0)
+    }
+}
+
+impl Way {
+    /// Whether it may reach something near along both axes.
+    #[inline]
+    pub fn reaches(&self, near: Near) -> bool {
+        let (half, within) = (0.5 * self.time, near.within + self.off + self.reach);
+        // The interval of a coordinate: its middle, give or take half the way.
+        let comes_near = |end: f64, velocity: f64, center: f64| {
+            (end - half * velocity - center).abs() <= within + half * velocity.abs()
+        };
+        let f = &self.filament;
+        comes_near(f.x, f.velocity[0], near.center[0]) && comes_near(f.y, f.velocity[1], near.center[1])
+    }
+
+    /// The last step of a part that goes straight on, which ends so many seconds later than that step.
+    pub fn step(&self, later: f64, step_s: f64) -> Way {
+        Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }
+    }
+}
+
+/// A box along the flow and across it, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }
+    }
+}
+
+impl Extent {
+    /// Holds a place, too.
+    #[inline]
+    pub fn extend(&mut self, x: f64, y: f64) {
+        // Not `min` and `max`: those also cater for what is not a number.
+        let (low, high) = (&mut self.low, &mut self.high);
+        low[0] = if x < low[0] { x } else { low[0] };
+        low[1] = if y < low[1] { y } else { low[1] };
+        high[0] = if x > high[0] { x } else { high[0] };
+        high[1] = if y > high[1] { y } else { high[1] };
+    }
+
+    /// Whether it comes so near to a place along both axes, m.
+    pub fn comes_near(&self, center: [f64; 2], near: f64) -> bool {
+        (0..2).all(|axis| self.low[axis] <= center[axis] + near && self.high[axis] >= center[axis] - near)
+    }
+}
