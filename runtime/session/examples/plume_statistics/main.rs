@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     draw("flow.svg", pictures::flow(&flat, &recording)?)?;
 
     let even = STEPS.map(|step| (format!("{step} s"), step, false));
-    let graded = (String::from("1 s to 16 s, by age"), 1.0, true);
+    let graded = (String::from("strides"), 1.0, true);
     let measured = even.into_iter().chain([graded]).map(|(name, step, graded)| {
         let plume = flat.environment.plume.clone().map(|plume| Plume { step, graded, ..plume });
         Ok((

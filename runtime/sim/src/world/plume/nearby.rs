@@ -4,18 +4,18 @@ use crate::world::plume::kernel::CUT_RADII;
 use crate::world::plume::way::{Near, Way};
 use crate::world::plume::{Filament, FilamentPlume};
 
-/// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 2 s.
+/// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 1 s.
 const NEIGHBOURHOOD_M: f64 = 2.2;
-/// Searches within this distance of each other share a wide one, m.
+/// Searches within this distance of each other share a wide one, m ...
 const WIDE_M: f64 = 24.0;
-/// A wide search is for so many steps of the plume.
+/// ... which is for so many steps of the plume: the wider and the longer, the more it finds, and the fewer halves it knows.
 const WIDE_STEPS: u64 = 16;
 
 /// Copies of the filaments that can matter within a neighbourhood during one step.
 ///
-/// One vehicle asks ten times a step and within a few metres, so that one search a step, of the blocks of filaments that
-/// reach this far, costs less than the upkeep of a grid. It leaves out only what reads exactly zero and keeps the order: the
-/// sum has the same bits as one over all filaments.
+/// One vehicle asks ten times a step and within a few metres, so that one search a step, of those that a wide one has found in the
+/// blocks of filaments that reach this far, costs less than the upkeep of a grid. It leaves out only what reads exactly zero and keeps the
+/// order: the sum has the same bits as one over all filaments.
 #[derive(Clone, Debug, Default)]
 pub struct Nearby {
     center: [f64; 2],
@@ -74,7 +74,7 @@ impl Nearby {
         self.filaments.clear();
         for way in &wide.ways {
             if let Some(part) = plume.bridge.part(&plume.origins, way, step, 1, Some(near)) {
-                let of_step = part.step((part.end as f64 - (step + 1) as f64) * step_s, step_s);
+                let of_step = part.last_step((part.end as f64 - (step + 1) as f64) * step_s, step_s);
                 if of_step.reaches(near) {
                     self.filaments.push(of_step.filament);
                 }

@@ -111,6 +111,30 @@ fn vertical_mixing_fills_the_layer() {
     assert!((mean - 1.75).abs() < 0.1 && (deviation - 3.5 / 12.0_f64.sqrt()).abs() < 0.06, "{mean} {deviation}");
 }
 
+/// A vehicle meets a rising plume first where the few of its filaments are that rise fastest: as many as a walk that the bottom throws back has,
+/// although their strides have one draw.
+#[test]
+fn as_many_rise_fast_as_in_a_walk() {
+    let settings = Plume { vertical: 1e-3, layer: Some(3.5), ..Default::default() };
+    let mut scenario = uniform(100.0, settings);
+    scenario.environment.sources[0].at = Point::new(850.0, 0.0);
+    let (mut plume, mut water) = begun(&scenario, 0.0, 5);
+    let (mut all, mut high) = (0, 0);
+    for sample in 0..80 {
+        let tick = 2000 + 200 * sample;
+        plume.advance_to(tick, &mut water);
+        let time = tick as f64 * TICK_S;
+        for (f, at) in plume.at(time) {
+            let is_young = (90.0..110.0).contains(&(time - f.birth));
+            all += u32::from(is_young);
+            high += u32::from(is_young && at[2] > 1.2);
+        }
+    }
+    // Released at 0.2 m, 100 s old: P(|0.2 m + sqrt(2 K t) N| > 1.2 m) = 1.36 % over these ages.
+    let share = f64::from(high) / f64::from(all);
+    assert!(all > 150_000 && (share / 0.01363 - 1.0).abs() < 0.05, "{high} of {all}: {share}");
+}
+
 #[test]
 fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
     let scenario = meandering(rising());

@@ -172,7 +172,7 @@ impl Way {
     }
 
     /// The last step of a part that goes straight on, which ends so many seconds later than that step.
-    pub fn step(&self, later: f64, step_s: f64) -> Way {
+    pub fn last_step(&self, later: f64, step_s: f64) -> Way {
         Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }
     }
 }
