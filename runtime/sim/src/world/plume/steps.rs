@@ -9,6 +9,8 @@ use albacore_vehicle::TICK_S;
 pub const LONGEST_STEP_S: f64 = 5.0;
 /// All filaments go in strides of so many of these steps, and of this at most, s.
 pub const LONGEST_STRIDE_S: f64 = 128.0;
+/// No filament goes straight on for longer, s: who comes back to a place must not find it as it was left.
+const LONGEST_STRAIGHT_S: f64 = 16.0;
 /// In a stride the mean flow goes this share of a cell of the field at most.
 const CELL_SHARE: f64 = 1.0;
 /// A stride is this share of a period of the flow at most.
@@ -28,6 +30,7 @@ pub struct Steps {
     /// Steps in a part at birth, and the growth with age, per s.
     young: f64,
     growth: f64,
+    longest: f64,
 }
 
 impl Steps {
@@ -41,12 +44,13 @@ impl Steps {
             of_spin_up,
             young: per_squared_radius * plume.initial_radius * plume.initial_radius,
             growth: per_squared_radius * plume.growth,
+            longest: LONGEST_STRAIGHT_S / plume.step,
         }
     }
 
     /// How many steps a filament of an age (s) goes straight on: a power of two, so that they are parts of a stride.
     pub fn straight(&self, age: f64) -> u64 {
-        power_of_two(self.young + self.growth * age)
+        power_of_two((self.young + self.growth * age).min(self.longest))
     }
 }
 

@@ -178,6 +178,31 @@ fn an_index_reads_what_a_search_of_the_whole_plume_does() {
     }
 }
 
+/// Old filaments, too, go to and fro within seconds: who crosses a place again soon meets another plume. Straight parts of T seconds take
+/// something away from that, a third over T seconds, and three quarters over T / 4.
+#[test]
+fn old_filaments_go_to_and_fro() {
+    let scenario = uniform(1.0, Plume::default());
+    let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 9);
+    plume.spin_up(&mut water, &[], 0);
+    let places = |plume: &FilamentPlume, time: f64| -> std::collections::BTreeMap<u32, [f64; 3]> {
+        plume.at(time).filter(|(f, _)| f.birth < time - 4000.0).map(|(f, at)| (f.number, at)).collect()
+    };
+    let (mut sum, mut count) = (0.0, 0.0);
+    for second in (5..400).step_by(37) {
+        plume.advance_to(10 * second, &mut water);
+        let before = places(&plume, second as f64);
+        plume.advance_to(10 * second + 160, &mut water);
+        for (number, after) in places(&plume, second as f64 + 16.0) {
+            let Some(before) = before.get(&number) else { continue };
+            sum += squared(after[0] - before[0] - 0.2 * 16.0) + squared(after[1] - before[1]);
+            count += 2.0;
+        }
+    }
+    let share = sum / count / (2.0 * 0.027 * 16.0);
+    assert!(count > 20_000.0 && (0.6..0.8).contains(&share), "{share} of the diffusion, {count}");
+}
+
 /// Between steps a filament moves on a line: it ends a step where it begins the next.
 #[test]
 fn nothing_jumps_between_steps() {
