@@ -123,7 +123,7 @@ impl Campaign<'_> {
         };
         let cases = self.asked.cases.read().and_then(|cases| {
             cases
-                .fit(seeds.count())
+                .fit(self.seeds.count())
                 .map_err(|message| (message, "ask for fewer seeds, or sweep fewer values".to_string()))?;
             Ok(cases)
         });
@@ -155,6 +155,7 @@ impl Campaign<'_> {
 
     fn carry_out(&self, campaign: &MissionCampaign, cases: &Cases, rows: Rows) -> Result<Exit, TableError> {
         let (columns, origin) = (campaign.columns(), self.origin(campaign, cases, rows.seeds.first));
+        origin.is_small_enough().map_err(|(message, help)| TableError::Asked(message, help))?;
         // Who interrupts finds a table that can be gone on with.
         let interrupted = interruption::flag();
         let mut table = if self.asked.resume {

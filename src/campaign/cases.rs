@@ -34,7 +34,7 @@ pub struct AskedCases {
     #[arg(long = "sweep", value_name = "NAME=A,B,…")]
     sweeps: Vec<Sweep>,
     /// Read the cases from a table, a row for each. Its columns are called `script`, `mission`, `scenario`, or like the parameter that they
-    /// set; an empty cell leaves it as it is.
+    /// set; an empty cell leaves it as it is. Files are seen from the folder of the table.
     #[arg(long = "cases", value_name = "CASES.csv", conflicts_with_all = ["sweeps", "scenarios", "missions"])]
     list: Option<PathBuf>,
 }
@@ -75,9 +75,9 @@ impl AskedCases {
         match cases.all.len() {
             0 => Err(("there are no cases".to_string(), "write a row for each into the list of cases".to_string())),
             1..=CASES_MAX => Ok(cases),
-            count => {
-                let help = "sweep fewer values, or run several campaigns".to_string();
-                Err((format!("{count} cases are more than {CASES_MAX}"), help))
+            _ => {
+                let help = "run several campaigns".to_string();
+                Err((format!("the list has more than {CASES_MAX} cases"), help))
             }
         }
     }
@@ -88,7 +88,8 @@ impl AskedCases {
             let help = "leave out `--mission`, or list the cases with `--cases`";
             return Err(("`--mission` chooses of one script, and there are several".to_string(), help.to_string()));
         }
-        twice("the script", self.scripts.iter().map(|script| script.display().to_string()))?;
+        let whole = |script: &PathBuf| script.canonicalize().unwrap_or(script.clone()).display().to_string();
+        twice("the script", self.scripts.iter().map(whole))?;
         twice("the mission", self.missions.iter().cloned())?;
         twice("the scenario", self.scenarios.iter().cloned())?;
         twice("the sweep of", self.sweeps.iter().map(|sweep| sweep.name.clone()))?;
@@ -144,6 +145,15 @@ impl AskedCases {
             return Err(unread(format!("its column {} has no name", empty + 1)));
         }
         twice("the column", names.iter().cloned())?;
+        if let [only] = names.as_slice()
+            && only.contains([';', '\t'])
+        {
+            return Err(unread("its columns are not parted by commas".to_string()));
+        }
+        let is_meant = |name: &String| OF_CASE.contains(&name.to_lowercase().as_str());
+        if let Some(name) = names.iter().find(|name| is_meant(name) && !OF_CASE.contains(&name.as_str())) {
+            return Err(unread(format!("its column `{name}` is called `{}`", name.to_lowercase())));
+        }
         let swept: Vec<String> = names.iter().filter(|name| !OF_CASE.contains(&name.as_str())).cloned().collect();
         let mut all = Vec::new();
         for row in reader.records().take(CASES_MAX + 1) {
@@ -155,9 +165,13 @@ impl AskedCases {
             let values: Vec<Option<String>> = swept.iter().map(|name| cell(name)).collect();
             let set = swept.iter().zip(&values).filter_map(|(name, value)| Some(format!("{name}={}", value.as_ref()?)));
             let set = self.set.iter().cloned().chain(set).collect();
-            let choice = Choice { mission: cell("mission"), scenario: cell("scenario"), set };
-            // A script is found from the folder of the list, as one is that a script uses.
+            // Files are found from the folder of the list, as they are from that of a script.
             let beside = |name: String| list.parent().unwrap_or(Path::new("")).join(name);
+            let scenario = cell("scenario").map(|scenario| match scenario.split_once('#') {
+                Some((file, name)) => format!("{}#{name}", beside(file.to_string()).display()),
+                None => scenario,
+            });
+            let choice = Choice { mission: cell("mission"), scenario, set };
             all.push(Case { script: cell("script").map_or_else(|| script.clone(), beside), choice, values });
         }
         Ok(Cases { all, swept })
@@ -165,10 +179,11 @@ impl AskedCases {
 }
 
 impl Cases {
-    /// The names of the columns of what is swept. Where all values are numbers in one unit, that is in the name, and the cells are
+    /// What the columns of what is swept are to be called. Where all values are numbers in one unit, that is in the name, and the cells are
     /// numbers: `lambda=2s,4s` is a column `lambda_s`.
     pub fn columns(&self) -> Vec<String> {
         let name = |(at, name): (usize, &String)| match self.unit(at) {
+            Some("%") => format!("{name}_percent"),
             Some(unit) if !unit.is_empty() => {
                 format!("{name}_{}", unit.replace(|c: char| !c.is_ascii_alphanumeric(), "_"))
             }
@@ -280,8 +295,14 @@ fn measure(value: &str) -> Option<(f64, &str)> {
     let (number, unit) = value.split_at(end + exponent.unwrap_or(0));
     let number = number.parse::<f64>().ok().filter(|number| number.is_finite())?;
     let unit = unit.trim();
-    let is_of_unit = |c: char| c.is_alphanumeric() || matches!(c, '/' | '%' | '^' | '°' | '*' | '.' | '-');
-    (unit.chars().all(is_of_unit) && !unit.starts_with(['.', '-'])).then_some((number, unit))
+    (unit.is_empty() || unit.split('/').count() <= 2 && unit.split('/').all(is_unit)).then_some((number, unit))
+}
+
+/// Whether a text is a unit with a power, if it has one: `s`, `m2`, `s^0.5`, `%`. What is computed with a number is none.
+fn is_unit(text: &str) -> bool {
+    let name = text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let name = name.strip_suffix('^').unwrap_or(name);
+    !name.is_empty() && name.chars().all(|c| c.is_alphabetic() || matches!(c, '%' | '°'))
 }
 
 /// An error if one of the names is there twice.
@@ -321,7 +342,12 @@ mod tests {
             ("1.5E+2", Some((150.0, ""))),
             ("bad", None),
             ("36°10.8'N", None),
+            ("1 m/s^0.5", Some((1.0, "m/s^0.5"))),
             ("2 * 3 s", None),
+            ("2*3s", None),
+            ("10s/2", None),
+            ("10s-4s", None),
+            ("2 s+", None),
             ("1..2", None),
             ("", None),
         ];

@@ -169,13 +169,20 @@ fn of_one(side: &Side) -> Result<Vec<(CaseOf<'_>, CaseOf<'_>)>, Unusable> {
         let first = cases[..case].iter().position(|first| first.other_world(origin).is_none())?;
         Some((CaseOf { of: side, case: first }, CaseOf { of: side, case }))
     };
-    let pairs: Vec<_> = cases.iter().enumerate().filter_map(pair).collect();
+    // A table that is not finished may have no row of its last cases.
+    let has_runs = |case: CaseOf| !case.runs().is_empty();
+    let pairs = cases.iter().enumerate().filter_map(pair).filter(|(a, b)| has_runs(*a) && has_runs(*b));
+    let pairs: Vec<_> = pairs.collect();
     if !pairs.is_empty() {
         return Ok(pairs);
     }
     let shown = side.table.path.display();
     Err(match cases.len() {
         1 => (format!("`{shown}` has one case, and nothing to compare it with"), "name another table".to_string()),
+        _ if side.cases.iter().any(BTreeMap::is_empty) => {
+            let message = format!("`{shown}` ends before it has all cases of its first seed");
+            (message, "the campaign that began it goes on with `--resume`".to_string())
+        }
         _ => {
             let message = format!("no two cases of `{shown}` are of one world");
             (message, "only in one world the same seed is the same water: sweep a parameter of the mission".to_string())

@@ -141,6 +141,21 @@ impl Provenance {
         OriginKey(key.to_string())
     }
 
+    /// An error if it would be larger than what is read again: message and help.
+    pub fn is_small_enough(&self) -> Result<(), (String, String)> {
+        let bytes = output::json(self).map_or(0, |text| text.len());
+        match bytes < SOURCE_BYTES_MAX / 2 {
+            true => Ok(()),
+            false => {
+                let message = format!(
+                    "what the cases are made from takes {bytes} bytes, of which {} are read",
+                    SOURCE_BYTES_MAX / 2
+                );
+                Err((message, "run fewer cases at once, or put long values into the script".to_string()))
+            }
+        }
+    }
+
     /// Writes it beside a table, whole or not at all.
     pub fn write(&self, table: &Path) -> io::Result<()> {
         disk::whole(&beside(table, ".origin"), &summed(&output::json(self)?))

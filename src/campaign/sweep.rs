@@ -27,6 +27,7 @@ pub struct SweepSummary<'a> {
 struct CaseSummary<'a> {
     /// Its number in the table, from 1.
     case: usize,
+    script: String,
     /// What is swept, by the names of the columns.
     swept: BTreeMap<String, String>,
     #[serde(flatten)]
@@ -43,12 +44,13 @@ impl<'a> SweepSummary<'a> {
         table: &'a Path,
         tallies: &'a Tallies,
     ) -> Self {
-        let swept = cases.columns();
+        let swept = campaign.columns().swept().to_vec();
         let of_case = |(case, ((asked, plan), tally)): (usize, ((&Case, &'a Plan), &'a Tally))| {
             let command = vec!["albacore run".to_string(), shell::path(&asked.script)];
             let run = [command, asked.choice.words(), faults.words()].concat().join(" ");
             CaseSummary {
                 case,
+                script: asked.script.display().to_string(),
                 swept: swept.iter().cloned().zip(cases.cells(asked)).collect(),
                 summary: CampaignSummary::new(plan, seeds, table, tally, &run),
             }
@@ -103,6 +105,9 @@ impl<'a> SweepSummary<'a> {
             all.any(|other| Some(other) != first)
         };
         let mut columns: Vec<(String, Cell)> = vec![("case".to_string(), Box::new(|case| case.case.to_string()))];
+        if self.cases.iter().any(|case| case.script != self.cases[0].script) {
+            columns.push(("script".to_string(), Box::new(|case| case.script.clone())));
+        }
         if differ(|summary| summary.mission.to_string()) {
             columns.push(("mission".to_string(), Box::new(|case| case.summary.mission.to_string())));
         }

@@ -157,6 +157,18 @@ fn cases_are_read_from_a_list() {
         |row: &Row| format!("{} {} {} {}", row["mission"], row["scenario"], row["luck"], row["brook.drift_cm_s"]);
     let told: Vec<String> = all.iter().take(4).map(told).collect();
     assert_eq!(told, ["seeking brook bad 3", "seeking stream  ", "seeking brook  4", "reporting choppy  "]);
+    // A scenario of another file is found beside the list, wherever one is.
+    std::fs::create_dir_all(folder.join("lists")).unwrap();
+    let world = SEEKING.split("scenario stream").nth(1).unwrap().replacen(" {", "scenario elsewhere {", 1);
+    script(&folder.join("lists"), "worlds.alb", &world);
+    std::fs::write(folder.join("lists/cases.csv"), "scenario\nworlds.alb#elsewhere\n").unwrap();
+    let list = folder.join("lists/cases.csv").display().to_string();
+    let beside = read(&table(&mission, "1", &folder.join("beside.csv"), &["--cases", &list]));
+    assert_eq!(beside[0]["scenario"], "elsewhere");
+    let list = |text: &str| {
+        std::fs::write(folder.join("cases.csv"), text).unwrap();
+        folder.join("cases.csv").display().to_string()
+    };
     let out = folder.join("none.csv");
     for (text, said) in [
         ("luck\n", "there are no cases"),
@@ -167,6 +179,9 @@ fn cases_are_read_from_a_list() {
         ("depth\n3 m\n", "has a parameter `depth`"),
         ("script\nnone.alb\n", "none.alb"),
         ("", "there are no cases"),
+        ("scenario;luck\nbrook;bad\n", "its columns are not parted by commas"),
+        ("Scenario,luck\nbrook,bad\n", "its column `Scenario` is called `scenario`"),
+        (&("luck\n".to_string() + &"good\n".repeat(1001)), "the list has more than 1000 cases"),
     ] {
         let cases = list(text);
         let output = command(&mission, "1", &out, &["--cases", &cases]).output().unwrap();
@@ -257,4 +272,23 @@ fn a_sweep_is_summed_up_case_by_case_and_compared() {
     table(&mission, "1", &drifts, &["--in", "brook", "--sweep", "brook.drift=2cm/s,3cm/s"]);
     refused(&[&drifts], "are of one world");
     assert_eq!(rows(&std::fs::read_to_string(&drifts).unwrap()), 2);
+}
+
+/// What a person reads has the columns of the table, whatever they are called, and what is computed is no number with a unit.
+#[test]
+fn the_summary_has_the_columns_of_the_table() {
+    let folder = empty("sweep_names");
+    let named = SEEKING
+        .replace("mission seeking(", "mission seeking(seed: Int = 1, lambda: Duration = 1 s, lambda_s: Int = 1, ");
+    let mission = script(&folder, "named.alb", &named);
+    let out = folder.join("t.csv");
+    let more = ["--json", "--sweep", "seed=1,2", "--sweep", "lambda=2s,4s", "--sweep", "lambda_s=3,4"];
+    let output = command(&mission, "1", &out, &more).output().unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let swept = serde_json::json!({ "seed_": "2", "lambda_s": "4", "lambda_s_": "3" });
+    assert_eq!(told["cases"][6]["swept"], swept);
+    assert!(std::fs::read_to_string(&out).unwrap().starts_with("case,mission,seed_,lambda_s,lambda_s_,scenario,"));
+    let more = ["--sweep", "lambda=2*3s,10s/2,7s-4s"];
+    let rows = read(&table(&mission, "1", &folder.join("computed.csv"), &more));
+    assert_eq!(rows.iter().map(|row| row["lambda"].as_str()).collect::<Vec<_>>(), ["2*3s", "10s/2", "7s-4s"]);
 }

@@ -101,6 +101,12 @@ impl Columns {
         &self.names
     }
 
+    /// The names of those of what is swept.
+    pub fn swept(&self) -> &[String] {
+        let of_case = if self.cases.len() > 1 { 2 } else { 0 };
+        self.names.get(of_case..self.before).unwrap_or_default()
+    }
+
     /// The seed and the case, from 0, of a row that has all columns.
     pub fn run(&self, cells: &[&str]) -> Option<(u64, usize)> {
         let seed = self.cell(cells, "seed").parse().ok()?;
