@@ -86,7 +86,7 @@ impl FilamentPlume {
                 leak,
                 release: Some(Release::new(noise, source.rate, source.when, begin)),
                 kernel: Kernel::new(source.peak, source.reference_age, &settings),
-                diffusion: Diffusion::new(seed, number),
+                diffusion: Diffusion::new(seed, number, settings.vertical > 0.0),
             }
         });
         let patches = scenario.environment.patches.iter().zip(PATCH_STREAMS..).map(|(patch, number)| {
@@ -96,7 +96,7 @@ impl FilamentPlume {
                 leak: None,
                 release: None,
                 kernel: Kernel::new(patch.peak, patch.reference_age, &settings),
-                diffusion: Diffusion::new(seed, number),
+                diffusion: Diffusion::new(seed, number, settings.vertical > 0.0),
             }
         });
         let steps = Steps::new(scenario, &settings);

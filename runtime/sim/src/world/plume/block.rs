@@ -110,6 +110,8 @@ impl Block {
 pub struct Diffusion {
     noise: Noise,
     early: Noise,
+    /// Whether they rise.
+    rises: bool,
 }
 
 /// Until a filament has this age when a stride begins, s, its draws up and down are Gaussian to the last: where the plume rises to a vehicle
@@ -117,11 +119,12 @@ pub struct Diffusion {
 const EARLY_S: f64 = 512.0;
 
 impl Diffusion {
-    /// That of a source by its number.
-    pub fn new(seed: u64, number: u32) -> Self {
+    /// That of a source by its number, in a plume that rises or does not.
+    pub fn new(seed: u64, number: u32, rises: bool) -> Self {
         Diffusion {
             noise: Noise::sub(seed, Stream::Diffusion, number),
             early: Noise::sub(seed, Stream::VerticalDiffusion, number),
+            rises,
         }
     }
 
@@ -131,7 +134,7 @@ impl Diffusion {
         // They are its own, whatever else is alive.
         let index = u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF);
         let mut draws = self.noise.nearly_gaussian_triple(index);
-        if age < EARLY_S {
+        if self.rises && age < EARLY_S {
             draws[2] = self.early.gaussian(index);
         }
         draws
