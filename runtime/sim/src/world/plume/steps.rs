@@ -7,7 +7,7 @@ use albacore_vehicle::TICK_S;
 
 /// The plume's own steps are this long at most, s.
 pub const LONGEST_STEP_S: f64 = 5.0;
-/// All filaments go in strides of so many of these steps, and of this at most, s.
+/// All filaments go in strides of as many of these steps as fit, and of this at most, s.
 pub const LONGEST_STRIDE_S: f64 = 128.0;
 /// No filament goes straight on for longer, s: who comes back to a place must not find it as it was left.
 const LONGEST_STRAIGHT_S: f64 = 16.0;
@@ -27,7 +27,7 @@ pub struct Steps {
     /// Steps in a stride of the run, and of the spin-up: powers of two.
     pub stride: u64,
     pub of_spin_up: u64,
-    /// Steps in a part at birth, and the growth with age, per s.
+    /// Steps in a part at birth, their growth with age, per s, and the most.
     young: f64,
     growth: f64,
     longest: f64,
