@@ -154,7 +154,7 @@ fn the_picture_shows_all_of_a_survey_or_the_water_near_by() {
 #[test]
 fn the_picture_tells_the_flow_of_each_layer() {
     let layers = drawn("layers", "duck_2003_two_layers");
-    let carries = layers.find("lower layer: 12.").unwrap();
+    let carries = layers.find("lower layer: 12.1 cm/s").unwrap();
     assert!(carries < layers.find("above 3.2 m: 22.5 cm/s").unwrap());
     let folder = folder("waves");
     let waves = "scenario wavy {\n    flow(10 cm/s toward 90 deg)\n    waves(height: 2 m)\n}\n";

@@ -21,6 +21,11 @@ impl Seeds {
     pub fn count(self) -> u64 {
         self.last - self.first + 1
     }
+
+    /// What they are called: `seed 7`, `seeds 1..100`.
+    pub fn named(self) -> String {
+        format!("{} {self}", if self.count() == 1 { "seed" } else { "seeds" })
+    }
 }
 
 impl FromStr for Seeds {

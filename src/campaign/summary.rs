@@ -90,7 +90,7 @@ impl<'a> CampaignSummary<'a> {
     pub fn human(&self) -> Lines {
         let mut lines = Lines::default();
         let [first, last] = self.seeds;
-        let seeds = if first == last { format!("seed {first}") } else { format!("seeds {first}..{last}") };
+        let seeds = Seeds { first, last }.named();
         let outcomes: Vec<String> =
             self.outcomes.iter().map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
         lines.add(&format!("{} in {}, {seeds}: {}", self.mission, self.scenario, outcomes.join(", ")));

@@ -78,9 +78,7 @@ impl<'a> SweepSummary<'a> {
         }
         let mut lines = Lines::default();
         let runs: usize = self.cases.iter().map(|case| case.summary.runs).sum();
-        let Seeds { first, last } = self.seeds;
-        let seeds = if first == last { format!("seed {first}") } else { format!("seeds {first}..{last}") };
-        lines.add(&format!("{} cases, {seeds}: {runs} runs", self.cases.len()));
+        lines.add(&format!("{} cases, {}: {runs} runs", self.cases.len(), self.seeds.named()));
         aligned(&self.grid()).iter().for_each(|line| lines.add(line));
         lines.add(&format!("  errors and times are medians; intervals: {INTERVAL}; `--json` has more of each case"));
         let mut missed: Vec<_> =

@@ -1,6 +1,7 @@
 //! The plume: filaments released at the sources that drift with the water, diffuse, and grow (Farrell et al. 2002).
 
 mod block;
+mod diffusion;
 mod index;
 mod kernel;
 mod nearby;
@@ -24,7 +25,8 @@ use crate::noise::{Noise, Stream};
 use crate::scenario::Scenario;
 use crate::world::water::{Cells, FlowFrame, Water};
 use albacore_vehicle::TICK_S;
-use block::{Block, Diffusion, Drift, Filament, folded};
+use block::{Block, Drift, Filament, folded};
+use diffusion::Diffusion;
 use kernel::Kernel;
 use release::Release;
 use steps::Steps;
@@ -195,7 +197,7 @@ impl FilamentPlume {
         self.settings.layer.map_or(z, |ceiling| folded(z, ceiling))
     }
 
-    /// The filaments alive at a time of the last step: where (m, in the flow frame) and how large (m).
+    /// The filaments alive at a time of the last stride: where (m, in the flow frame) and how large (m).
     pub fn alive(&self, time: f64) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
         self.at(time).map(move |(f, place)| {
             (place, self.origins[f.source as usize].kernel.squared_radius(time - f.birth).sqrt())

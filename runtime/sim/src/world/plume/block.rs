@@ -1,8 +1,6 @@
 //! Filaments that were released one after the other, and stay neighbours in space.
 
-use crate::noise::{Noise, Stream};
 use crate::world::plume::Origin;
-use crate::world::plume::way::Extent;
 use crate::world::water::Cells;
 
 /// Filaments in a block.
@@ -105,42 +103,6 @@ impl Block {
     }
 }
 
-/// What pushes the filaments of a source about.
-#[derive(Clone, Copy, Debug)]
-pub struct Diffusion {
-    noise: Noise,
-    early: Noise,
-    /// Whether they rise.
-    rises: bool,
-}
-
-/// Until a filament has this age when a stride begins, s, its draws up and down are Gaussian to the last: where the plume rises to a vehicle
-/// first is told by the few that rise fastest, and they have had few draws.
-const EARLY_S: f64 = 512.0;
-
-impl Diffusion {
-    /// That of a source by its number, in a plume that rises or does not.
-    pub fn new(seed: u64, number: u32, rises: bool) -> Self {
-        Diffusion {
-            noise: Noise::sub(seed, Stream::Diffusion, number),
-            early: Noise::sub(seed, Stream::VerticalDiffusion, number),
-            rises,
-        }
-    }
-
-    /// The draws of a filament for a step of the plume, along the flow, across it and up, where it has an age when the stride begins, s.
-    #[inline]
-    pub fn draw(&self, filament: &Filament, step: u64, age: f64) -> [f64; 3] {
-        // They are its own, whatever else is alive.
-        let index = u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF);
-        let mut draws = self.noise.nearly_gaussian_triple(index);
-        if self.rises && age < EARLY_S {
-            draws[2] = self.early.gaussian(index);
-        }
-        draws
-    }
-}
-
 impl Drift<'_> {
     #[inline]
     fn has_left(&self, f: &Filament) -> bool {
@@ -161,6 +123,37 @@ impl Filament {
     pub fn back(mut self, before: f64) -> Self {
         [self.x, self.y, self.z] = self.at(before);
         self
+    }
+}
+
+/// A box along the flow and across it, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }
+    }
+}
+
+impl Extent {
+    /// Holds a place, too.
+    #[inline]
+    pub fn extend(&mut self, x: f64, y: f64) {
+        // Not `min` and `max`: those also cater for what is not a number.
+        let (low, high) = (&mut self.low, &mut self.high);
+        low[0] = if x < low[0] { x } else { low[0] };
+        low[1] = if y < low[1] { y } else { low[1] };
+        high[0] = if x > high[0] { x } else { high[0] };
+        high[1] = if y > high[1] { y } else { high[1] };
+    }
+
+    /// Whether it comes so near to a place along both axes, m.
+    pub fn comes_near(&self, center: [f64; 2], near: f64) -> bool {
+        (0..2).all(|axis| self.low[axis] <= center[axis] + near && self.high[axis] >= center[axis] - near)
     }
 }
 

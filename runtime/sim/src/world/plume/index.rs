@@ -35,7 +35,7 @@ pub struct Index {
 }
 
 impl Index {
-    /// The plume at a time of its last step, s.
+    /// The plume at a time of its last stride, s.
     pub fn new(plume: &FilamentPlume, time: f64) -> Self {
         let alive: Vec<Puff> = plume
             .at(time)

@@ -176,34 +176,3 @@ impl Way {
         Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }
     }
 }
-
-/// A box along the flow and across it, m.
-#[derive(Clone, Copy, Debug)]
-pub struct Extent {
-    low: [f64; 2],
-    high: [f64; 2],
-}
-
-impl Default for Extent {
-    fn default() -> Self {
-        Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }
-    }
-}
-
-impl Extent {
-    /// Holds a place, too.
-    #[inline]
-    pub fn extend(&mut self, x: f64, y: f64) {
-        // Not `min` and `max`: those also cater for what is not a number.
-        let (low, high) = (&mut self.low, &mut self.high);
-        low[0] = if x < low[0] { x } else { low[0] };
-        low[1] = if y < low[1] { y } else { low[1] };
-        high[0] = if x > high[0] { x } else { high[0] };
-        high[1] = if y > high[1] { y } else { high[1] };
-    }
-
-    /// Whether it comes so near to a place along both axes, m.
-    pub fn comes_near(&self, center: [f64; 2], near: f64) -> bool {
-        (0..2).all(|axis| self.low[axis] <= center[axis] + near && self.high[axis] >= center[axis] - near)
-    }
-}

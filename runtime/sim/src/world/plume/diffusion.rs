@@ -1,0 +1,40 @@
+//! What pushes filaments about: draws that are their own, whatever else is alive.
+
+use crate::noise::{Noise, Stream};
+use crate::world::plume::Filament;
+
+/// What pushes the filaments of a source about.
+#[derive(Clone, Copy, Debug)]
+pub struct Diffusion {
+    noise: Noise,
+    early: Noise,
+    /// Whether they rise.
+    rises: bool,
+}
+
+/// Until a filament has this age when a stride begins, s, its draws up and down are Gaussian to the last: where the plume rises to a vehicle
+/// first is told by the few that rise fastest, and they have had few draws.
+const EARLY_S: f64 = 512.0;
+
+impl Diffusion {
+    /// That of a source by its number, in a plume that rises or does not.
+    pub fn new(seed: u64, number: u32, rises: bool) -> Self {
+        Diffusion {
+            noise: Noise::sub(seed, Stream::Diffusion, number),
+            early: Noise::sub(seed, Stream::VerticalDiffusion, number),
+            rises,
+        }
+    }
+
+    /// The draws of a filament for a step of the plume, along the flow, across it and up, where it has an age when the stride begins, s.
+    #[inline]
+    pub fn draw(&self, filament: &Filament, step: u64, age: f64) -> [f64; 3] {
+        // They are its own, whatever else is alive.
+        let index = u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF);
+        let mut draws = self.noise.nearly_gaussian_triple(index);
+        if self.rises && age < EARLY_S {
+            draws[2] = self.early.gaussian(index);
+        }
+        draws
+    }
+}
