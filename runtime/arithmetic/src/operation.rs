@@ -39,7 +39,7 @@ macro_rules! operators {
             }
 
             /// What is executed; a missing operand is 0.
-            #[inline]
+            #[inline(always)]
             pub fn execute(self, operands: &[f64]) -> f64 {
                 match self { $(Operator::$name => <$name as Operation<$count>>::execute(filled(operands, 0.0))),* }
             }

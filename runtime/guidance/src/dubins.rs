@@ -129,6 +129,7 @@ impl Path {
     }
 
     /// The path as plain numbers.
+    #[inline]
     pub fn to_words(self) -> [f64; Self::WORDS] {
         let word = Word::ALL.iter().position(|&w| w == self.word).unwrap_or(0);
         Writer::new()
@@ -141,6 +142,7 @@ impl Path {
     }
 
     /// The path back from its numbers.
+    #[inline]
     pub fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         Path {

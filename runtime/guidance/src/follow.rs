@@ -103,6 +103,7 @@ impl Law<{ FollowLine::WORDS }> for FollowLine {
         }
     }
 
+    #[inline]
     fn to_words(self) -> [f64; Self::WORDS] {
         let phase = match self.phase {
             Phase::Fresh => 0.0,
@@ -118,6 +119,7 @@ impl Law<{ FollowLine::WORDS }> for FollowLine {
             .finish()
     }
 
+    #[inline]
     fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         FollowLine {

@@ -110,6 +110,7 @@ impl Law<{ Goto::WORDS }> for Goto {
         Guidance { course: if self.leaving { self.outward } else { bearing }, arrived: false }
     }
 
+    #[inline]
     fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
             .point(self.goal)
@@ -125,6 +126,7 @@ impl Law<{ Goto::WORDS }> for Goto {
             .finish()
     }
 
+    #[inline]
     fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         Goto {

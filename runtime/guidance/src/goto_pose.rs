@@ -159,6 +159,7 @@ impl PathToPose {
         self.left = self.left.saturating_add(1);
     }
 
+    #[inline]
     fn to_words(self) -> [f64; Self::WORDS] {
         Writer::new()
             .numbers(&self.path.to_words())
@@ -177,6 +178,7 @@ impl PathToPose {
             .finish()
     }
 
+    #[inline]
     fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let mut reader = Reader::new(words);
         PathToPose {
@@ -221,6 +223,7 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
         guidance
     }
 
+    #[inline]
     fn to_words(self) -> [f64; Self::WORDS] {
         let mut words = [0.0; Self::WORDS];
         let [is_to_point, state @ ..] = &mut words;
@@ -234,6 +237,7 @@ impl Law<{ GotoPose::WORDS }> for GotoPose {
         words
     }
 
+    #[inline]
     fn from_words(words: &[f64; Self::WORDS]) -> Self {
         let [is_to_point, state @ ..] = words;
         GotoPose(if *is_to_point == 0.0 {

@@ -14,10 +14,12 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<const N: usize> Writer<N> {
+    #[inline]
     pub(crate) fn new() -> Self {
         Writer { words: [0.0; N], at: 0 }
     }
 
+    #[inline]
     pub(crate) fn number(&mut self, x: f64) -> &mut Self {
         debug_assert!(self.at < N, "a state writes as many words as it declares");
         if let Some(word) = self.words.get_mut(self.at) {
@@ -27,18 +29,22 @@ impl<const N: usize> Writer<N> {
         self
     }
 
+    #[inline]
     pub(crate) fn flag(&mut self, set: bool) -> &mut Self {
         self.number(if set { 1.0 } else { 0.0 })
     }
 
+    #[inline]
     pub(crate) fn point(&mut self, p: Point) -> &mut Self {
         self.number(p.north).number(p.east)
     }
 
+    #[inline]
     pub(crate) fn heading(&mut self, heading: Heading) -> &mut Self {
         self.number(heading.radians())
     }
 
+    #[inline]
     pub(crate) fn numbers(&mut self, numbers: &[f64]) -> &mut Self {
         for &x in numbers {
             self.number(x);
@@ -46,6 +52,7 @@ impl<const N: usize> Writer<N> {
         self
     }
 
+    #[inline]
     pub(crate) fn finish(&self) -> [f64; N] {
         debug_assert!(self.at == N, "a state writes as many words as it declares");
         self.words
@@ -53,10 +60,12 @@ impl<const N: usize> Writer<N> {
 }
 
 impl<'a> Reader<'a> {
+    #[inline]
     pub(crate) fn new(words: &'a [f64]) -> Self {
         Reader { words }
     }
 
+    #[inline]
     pub(crate) fn number(&mut self) -> f64 {
         match self.words {
             [first, rest @ ..] => {
@@ -67,18 +76,22 @@ impl<'a> Reader<'a> {
         }
     }
 
+    #[inline]
     pub(crate) fn flag(&mut self) -> bool {
         self.number() != 0.0
     }
 
+    #[inline]
     pub(crate) fn point(&mut self) -> Point {
         Point { north: self.number(), east: self.number() }
     }
 
+    #[inline]
     pub(crate) fn heading(&mut self) -> Heading {
         Heading::from_radians(self.number())
     }
 
+    #[inline]
     pub(crate) fn numbers<const N: usize>(&mut self) -> [f64; N] {
         std::array::from_fn(|_| self.number())
     }

@@ -18,6 +18,8 @@ use std::sync::Arc;
 /// The least depth of the water that a chart has within a distance (m) of a place, m; none where it has no depths.
 pub type Chart = Arc<dyn Fn(Point, f64) -> Option<f64> + Send + Sync>;
 
+/// What was told so many ticks ago counts.
+const FRESH_TICKS: u64 = (LIMIT_FRESH_S / TICK_S) as u64;
 /// An altitude this near to the one that is commanded is held, m: then the depth may change and it does not.
 const HELD_M: f64 = 0.5;
 /// A vehicle that is deeper by so much, m, than it may be has been led too deep.
@@ -121,6 +123,28 @@ impl Heard {
     }
 }
 
+/// What is known of the water below while a command is made, found once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Below {
+    /// The depth of the vehicle, m.
+    depth: f64,
+    /// How deep it may go whatever the water is, m.
+    deepest: f64,
+    /// What the latest echo told, unless it is too old to count.
+    heard: Option<Heard>,
+    /// The altitude that was told last, m, unless it is too old to count.
+    pub sounded: Option<f64>,
+    /// The same, less what the vehicle has dived since, where that is less than the limit lets it be, m.
+    low: Option<f64>,
+}
+
+impl Below {
+    /// Whether the altitude by itself is less than the limit lets it be.
+    pub fn is_low(&self) -> bool {
+        self.low.is_some()
+    }
+}
+
 impl Bottom {
     /// A position has come, which may be doubted.
     pub fn doubt_place(&mut self, is_doubted: bool) {
@@ -182,7 +206,7 @@ impl Run {
             depth: before.map_or(depth, |before| before.depth.min(depth)),
             water: before.map_or(water, |before| before.water.min(water)),
             water_now: water,
-            confirmed: agreed.is_some_and(|agreed| (tick - agreed.tick) as f64 * TICK_S <= LIMIT_FRESH_S),
+            confirmed: agreed.is_some_and(|agreed| tick - agreed.tick <= FRESH_TICKS),
             agrees: agreed.is_some(),
             at,
         };
@@ -247,17 +271,16 @@ impl Run {
 
     /// Holds what is asked of the vertical within the limits. Depth and altitude are bound to one another by the water's depth:
     /// the limits of both hold, whichever is asked for. Of two that cannot both hold, the one that leads up does.
-    pub fn limit_vertical(&mut self, asked: Vertical) -> Vertical {
+    pub fn limit_vertical(&mut self, asked: Vertical, below: &Below) -> Vertical {
         let Limits { altitude, depth, .. } = self.state.limits;
-        self.state.bottom.begun.get_or_insert(self.state.tick);
-        let known = self.heard_lately();
-        let (deepest, bounded) = (self.deepest(), self.bounds_vertical());
+        let Below { deepest, heard: known, .. } = *below;
+        let bounded = altitude.0 > 0.0 || deepest < f64::MAX;
         let floor = self.floor(altitude.0, known).min(deepest);
         let is_lost = known.is_none() && altitude.0 > 0.0;
         self.tell_of_bottom(is_lost, floor);
         // Who is told to be deeper than any command can have led has a depth that is told wrong: with a bottom that is lost, it goes up.
-        let is_passed = self.depth() > floor + PASSED_M;
-        let must_rise = self.is_low() || is_passed && (floor < deepest || is_lost);
+        let is_passed = below.depth > floor + PASSED_M;
+        let must_rise = below.is_low() || is_passed && (floor < deepest || is_lost);
         let up = self.leads_up(floor);
         let floor = if known.is_some() { floor.min(self.floor_in_rise(altitude.0)) } else { floor };
         let given = match (asked, known) {
@@ -329,26 +352,30 @@ impl Run {
         may
     }
 
-    /// Whether the altitude by itself is less than the limit lets it be.
-    pub fn is_low(&self) -> bool {
+    /// What is known while a command is made, from the first of which on limits are held.
+    pub fn below(&mut self) -> Below {
+        self.state.bottom.begun.get_or_insert(self.state.tick);
         let least = self.state.limits.altitude.0;
         let low = least - (LOW_SHARE * least).min(LOW_MAX_M);
-        self.altitude_now().is_some_and(|altitude| altitude < low)
+        let (depth, sounded) = (self.depth(), self.sounded_lately());
+        // A hull that dives goes on for some metres after it is told to rise.
+        let now = sounded.map(|sounded| sounded.altitude - (depth - sounded.depth).max(0.0));
+        Below {
+            depth,
+            deepest: self.deepest(),
+            heard: self.heard_lately(),
+            sounded: sounded.map(|sounded| sounded.altitude),
+            low: now.filter(|altitude| *altitude < low),
+        }
     }
 
     /// The altitude that was told last, m, unless it is too old to count.
-    pub fn sounded(&self) -> Option<f64> {
+    fn sounded(&self) -> Option<f64> {
         self.sounded_lately().map(|sounded| sounded.altitude)
     }
 
-    /// The same, less what the vehicle has dived since: a hull that dives goes on for some metres after it is told to rise.
-    fn altitude_now(&self) -> Option<f64> {
-        self.sounded_lately().map(|sounded| sounded.altitude - (self.depth() - sounded.depth).max(0.0))
-    }
-
     fn sounded_lately(&self) -> Option<Sounded> {
-        let fresh = |sounded: &Sounded| (self.state.tick - sounded.tick) as f64 * TICK_S <= LIMIT_FRESH_S;
-        self.state.bottom.sounded.filter(fresh)
+        self.state.bottom.sounded.filter(|sounded| self.state.tick - sounded.tick <= FRESH_TICKS)
     }
 
     /// What the latest echo told, unless it is too old to count.
@@ -384,30 +411,29 @@ impl Run {
     /// By how much the vehicle is deeper than it may be, m, as far as that is known: by its depth, and without one by its altitude. Without
     /// either it is taken to be as deep as it was: nothing tells that it rises. Of a bottom that is lost it is known that it may rise on
     /// the way.
-    pub fn too_deep(&self) -> Option<f64> {
+    pub fn too_deep(&self, below: &Below) -> Option<f64> {
         let least = self.state.limits.altitude.0;
         let told = |stamp: f64| stamp >= 0.0;
         let fresh = |stamp: f64| told(stamp) && self.state.tick as f64 - stamp <= LIMIT_FRESH_S / TICK_S;
         let stamp = self.get(self.senses.depth? + Input::STAMP);
-        match (self.sounded(), told(stamp)) {
+        match (below.sounded, told(stamp)) {
             (None, false) => return None,
             (Some(altitude), false) => return Some(least - altitude),
             // The depth that was told last is the best that is known of it.
             (Some(altitude), true) if !fresh(stamp) => {
-                return Some((least - altitude).max(self.depth() - self.deepest()));
+                return Some((least - altitude).max(below.depth - below.deepest));
             }
             _ => {}
         }
-        let by_altitude = match (self.heard_before(), self.heard_lately()) {
+        let by_altitude = match (self.heard_before(), below.heard) {
             (_, Some(heard)) => heard.water - self.ahead(least),
             (Some(heard), None) if least > 0.0 => self.risen(heard, least),
             (None, None) if least > 0.0 => self.charted().map_or(self.unheard(), |water| water - least),
             _ => f64::MAX,
         };
-        let by = self.depth() - by_altitude.min(self.deepest()).max(0.0);
+        let by = below.depth - by_altitude.min(below.deepest).max(0.0);
         // What is low leads up though it is not believed: a depth that is stuck disproves every altitude.
-        let low = self.altitude_now().filter(|_| self.is_low()).map(|altitude| least - altitude);
-        Some(low.map_or(by, |low| by.max(low)))
+        Some(below.low.map_or(by, |altitude| by.max(least - altitude)))
     }
 
     /// How deep the vehicle may go if the bottom has risen on the way since an echo, m.
@@ -450,8 +476,7 @@ impl Run {
     }
 
     fn has_just_begun(&self) -> bool {
-        let ticks = self.state.bottom.begun.map_or(0, |begun| self.state.tick - begun);
-        ticks as f64 * TICK_S <= LIMIT_FRESH_S
+        self.state.bottom.begun.map_or(0, |begun| self.state.tick - begun) <= FRESH_TICKS
     }
 
     fn charted(&self) -> Option<f64> {

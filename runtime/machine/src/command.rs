@@ -27,7 +27,8 @@ impl Run {
         let amended = self.amended(p, asked.course);
         let over_ground = asked.over_ground || amended != asked.course;
         let speed = self.limit(Channel::Speed, asked.speed);
-        let vertical = self.limit_vertical(asked.vertical);
+        let below = self.below();
+        let vertical = self.limit_vertical(asked.vertical, &below);
         let mut filter = CommandFilter::new(self.state.filtered);
         let course = filter.step(amended, self.state.limits.turn_rate, TICK_S);
         self.state.filtered = course;
@@ -39,35 +40,34 @@ impl Run {
         } else {
             (course, speed.max(0.0))
         };
-        let command = Command { heading, speed: self.lift(speed, vertical), vertical };
+        let command = Command { heading, speed: self.lift(speed, vertical, &below), vertical };
         self.state.command = Some(command);
         command
     }
 
     /// The course after all overlays, from inner to outer.
     fn amended(&mut self, p: &Program, asked: Heading) -> Heading {
+        // Where nothing has happened, nothing was entered or left.
+        if !self.amenders_known || !self.events.is_empty() {
+            self.find_amenders(p);
+        }
         let mut course = asked;
-        // The recovery runs beside the mission's body, in its frame: innermost.
-        if let Some(recovery) = p.mission.recovery {
-            course = self.amended_in(p, recovery.activity, p.mission.base, course);
-        }
-        course = self.amended_in(p, p.mission.activity, p.mission.base, course);
-        course
-    }
-
-    /// The course after the overlays of what is active inside an activity, and then of its own.
-    fn amended_in(&mut self, p: &Program, id: u32, base: Slot, asked: Heading) -> Heading {
-        if !self.is_active(p, id, base) {
-            return asked;
-        }
-        let mut course = match self.child(p, id, base) {
-            Some((child, at)) => self.amended_in(p, child, at, asked),
-            None => asked,
-        };
-        for &overlay in &p.activities[id as usize].overlays {
+        for place in 0..self.amenders.len() {
+            let (overlay, base) = self.amenders[place];
             course = self.amend(p, overlay, base, course);
         }
         course
+    }
+
+    /// Finds the overlays that amend the course, from inner to outer: those of the recovery, which runs beside the mission's body, come first.
+    fn find_amenders(&mut self, p: &Program) {
+        let mut wearers = Vec::new();
+        self.chain(p, &mut |id, base| wearers.push((&p.activities[id as usize].overlays, base)));
+        let worn = wearers.iter().rev().flat_map(|(overlays, base)| overlays.iter().map(|overlay| (*overlay, *base)));
+        let amends = |overlay: u32| p.activities[p.overlays[overlay as usize].activity as usize].kind;
+        self.amenders.clear();
+        self.amenders.extend(worn.filter(|(overlay, _)| amends(*overlay) == ActivityKind::AmendsCourse));
+        self.amenders_known = true;
     }
 
     /// The overlays of some activities, given from outside in, amend nothing until they go on; from inner to outer.
@@ -177,8 +177,7 @@ impl Run {
 
     /// A setpoint within the limits of its own channel.
     pub fn within_limits(&self, channel: Channel, asked: f64) -> f64 {
-        let mut limits = self.state.limits;
-        let (low, high) = *limits.of(channel);
+        let (low, high) = self.state.limits.within(channel);
         // Standing still is always allowed: it is what a hold asks for.
         let is_free = channel.row().is_free_at_zero && asked == 0.0;
         if is_free { 0.0 } else { asked.max(low).min(high.max(low)) }

@@ -9,10 +9,38 @@ use albacore_arithmetic::{Div, Dot, Operation, bounded};
 use albacore_geometry::{Edge, Line, Point, Vector};
 use albacore_program::{ABSOLUTE, AREA_CORNER_WORDS, Compute, Op, Slot, When, header};
 
-/// The words of a run, as code with a frame's base sees them.
-pub(crate) struct Frame<'a> {
+/// The words of a run, as code sees them.
+pub(crate) struct Frame<'a, O> {
     pub words: &'a mut [f64],
-    pub base: Slot,
+    pub operands: O,
+}
+
+/// How operands say which words they are.
+pub(crate) trait Operands: Copy {
+    /// Where a slot is among all words.
+    fn at(self, slot: Slot) -> usize;
+}
+
+/// From the base of a frame on.
+#[derive(Clone, Copy)]
+pub(crate) struct OfFrame(pub Slot);
+
+/// From the first word of the run on: of code that is bound to its frame.
+#[derive(Clone, Copy)]
+pub(crate) struct OfRun;
+
+impl Operands for OfFrame {
+    #[inline]
+    fn at(self, slot: Slot) -> usize {
+        place(slot, self.0) as usize
+    }
+}
+
+impl Operands for OfRun {
+    #[inline]
+    fn at(self, slot: Slot) -> usize {
+        slot as usize
+    }
 }
 
 /// Where a slot of a frame is among all words.
@@ -21,10 +49,10 @@ pub(crate) fn place(slot: Slot, base: Slot) -> Slot {
     if slot & ABSOLUTE == 0 { slot + base } else { slot & !ABSOLUTE }
 }
 
-impl Frame<'_> {
+impl<O: Operands> Frame<'_, O> {
     #[inline]
     fn at(&self, slot: Slot) -> usize {
-        place(slot, self.base) as usize
+        self.operands.at(slot)
     }
 
     #[inline]
@@ -138,11 +166,12 @@ fn dot(a: Vector, b: Vector) -> f64 {
 }
 
 /// Executes instructions up to the first that needs more than words, and gives its address.
-pub(crate) fn compute(ops: &[Op], f: &mut Frame, trig: &mut Trig, from: usize) -> usize {
+#[inline]
+pub(crate) fn compute<O: Operands>(ops: &[Op], f: &mut Frame<O>, trig: &mut Trig, from: usize) -> usize {
     let mut pc = from;
-    while let Some(&Op::Compute(op)) = ops.get(pc) {
+    while let Some(Op::Compute(op)) = ops.get(pc) {
         pc += 1;
-        match op {
+        match *op {
             Compute::Const { to, value } => f.set(to, value),
             Compute::Copy { to, from } => f.set(to, f.get(from)),
             Compute::CopyMany { to, from, words } => f.copy(to, from, words),

@@ -2,7 +2,7 @@
 
 use crate::Event;
 use crate::allowance::TEXT_BYTES_MAX;
-use crate::compute::{Frame, compute, place};
+use crate::compute::{Frame, OfFrame, OfRun, compute, place};
 use crate::lists::Order;
 use crate::state::Run;
 use albacore_geometry::{Area, Heading, Point};
@@ -59,85 +59,111 @@ impl Run {
         self.execute_all(p, entry, base)
     }
 
+    /// Most pieces of code are a row of instructions on words, and a return: what else there is stands apart, so that those are begun
+    /// and ended quickly.
+    #[inline(never)]
     fn execute_all(&mut self, p: &Program, entry: Addr, base: Slot) -> Stop {
         let mut pc = entry as usize;
-        let b = |slot: Slot| place(slot, base);
         loop {
-            let mut frame = Frame { words: &mut self.state.words, base };
-            pc = compute(&p.ops, &mut frame, &mut self.trig, pc);
-            let op = p.ops[pc];
+            pc = if self.bound.holds(pc, base) || self.bound.bind(p, pc as Addr, base) {
+                let mut frame = Frame { words: &mut self.state.words, operands: OfRun };
+                compute(self.bound.ops(), &mut frame, &mut self.trig, pc)
+            } else {
+                self.compute_in_frame(p, pc, base)
+            };
+            let op = &p.ops[pc];
             pc += 1;
-            match op {
-                Op::Compute(_) => {}
-                Op::Area(op) => self.on_area(op, base),
-                Op::List(op) => self.on_list(p, op, base),
-                Op::Map(op) => self.on_map(op, base),
-                Op::IsNew { to, input } => self.set(b(to), truth(self.is_new(&p.inputs[input as usize]))),
-                Op::Age { to, input } => self.set(b(to), self.age_s(&p.inputs[input as usize])),
-                Op::Hits { to, input, limit, of } => {
-                    let hits = self.hits(&p.inputs[input as usize], self.get(b(limit)), of);
-                    self.set(b(to), hits);
-                }
-                Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
-                Op::Return => return Stop::Return,
-                Op::Yield => return Stop::Yield(pc as Addr),
-                Op::End | Op::Finish => return Stop::End,
-                Op::Abort { why } => {
-                    self.abort = Some(self.filled(&p.texts[why as usize], base, p));
-                    return Stop::Abort;
-                }
-
-                Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
-                Op::Guide { guide, args, state, setpoints, ended } => {
-                    let arrived = self.guide(guide, b(args), b(state), b(setpoints));
-                    self.set(b(ended), truth(arrived));
-                }
-                Op::Keep { channel, value } => self.keep(channel, b(value)),
-                Op::Enter { call } => {
-                    self.enter_call(p, call, base);
-                    if self.abort.is_some() {
-                        return Stop::Abort;
-                    }
-                }
-                Op::Step { call, ended } => {
-                    let over = self.step_call(p, call, base);
-                    if self.abort.is_some() {
-                        return Stop::Abort;
-                    }
-                    self.set(b(ended), truth(over));
-                }
-                Op::Cut { call, cause } => self.cut_call(p, call, base, cause),
-                Op::PutOn { overlay } => self.put_on(p, overlay, base),
-                Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
-
-                Op::Ask { offered } => self.ask_for_control(offered),
-                Op::Answer { ours, refused, offered } => {
-                    let (is_ours, is_refused) = self.answer(offered);
-                    self.set(b(ours), truth(is_ours));
-                    self.set(b(refused), truth(is_refused));
-                }
-                Op::Take => self.take(),
-                Op::Driven { suspended, lost } => {
-                    let (is_suspended, is_lost) = self.driven();
-                    self.set(b(suspended), truth(is_suspended));
-                    self.set(b(lost), truth(is_lost));
-                }
-                Op::Desert { end } => {
-                    if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
-                        return Stop::Abort;
-                    }
-                }
-
-                Op::AskPayload { action, id } => self.ask_payload(action, b(id)),
-                Op::Heard { id, answer, ended } => self.hear(b(id), b(answer), b(ended)),
-                Op::Unanswered { id } => self.unanswered(b(id)),
-
-                Op::Tell { statement } => self.tell_beginning(p, statement, base),
-                Op::Report { site } => self.report(p, site, base),
-                Op::Log { text } => self.log(p, text, base),
-                Op::Changed { memory } => self.remember(p, memory, base),
+            if matches!(op, Op::Return) {
+                return Stop::Return;
+            }
+            if let Some(stop) = self.execute_one(p, op, pc as Addr, base) {
+                return stop;
             }
         }
+    }
+
+    /// Computes in a frame that the code is not bound to.
+    #[inline(never)]
+    fn compute_in_frame(&mut self, p: &Program, from: usize, base: Slot) -> usize {
+        let mut frame = Frame { words: &mut self.state.words, operands: OfFrame(base) };
+        compute(&p.ops, &mut frame, &mut self.trig, from)
+    }
+
+    /// Executes an instruction that needs more than words; `next` is the address of the one after it.
+    #[inline(never)]
+    fn execute_one(&mut self, p: &Program, op: &Op, next: Addr, base: Slot) -> Option<Stop> {
+        let b = |slot: Slot| place(slot, base);
+        match *op {
+            Op::Compute(_) => {}
+            Op::Area(op) => self.on_area(op, base),
+            Op::List(op) => self.on_list(p, op, base),
+            Op::Map(op) => self.on_map(op, base),
+            Op::IsNew { to, input } => self.set(b(to), truth(self.is_new(&p.inputs[input as usize]))),
+            Op::Age { to, input } => self.set(b(to), self.age_s(&p.inputs[input as usize])),
+            Op::Hits { to, input, limit, of } => {
+                let hits = self.hits(&p.inputs[input as usize], self.get(b(limit)), of);
+                self.set(b(to), hits);
+            }
+            Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
+            Op::Return => return Some(Stop::Return),
+            Op::Yield => return Some(Stop::Yield(next)),
+            Op::End | Op::Finish => return Some(Stop::End),
+            Op::Abort { why } => {
+                self.abort = Some(self.filled(&p.texts[why as usize], base, p));
+                return Some(Stop::Abort);
+            }
+
+            Op::Begin { guide, args, state, setpoints } => self.begin(guide, b(args), b(state), b(setpoints)),
+            Op::Guide { guide, args, state, setpoints, ended } => {
+                let arrived = self.guide(guide, b(args), b(state), b(setpoints));
+                self.set(b(ended), truth(arrived));
+            }
+            Op::Keep { channel, value } => self.keep(channel, b(value)),
+            Op::Enter { call } => {
+                self.enter_call(p, call, base);
+                if self.abort.is_some() {
+                    return Some(Stop::Abort);
+                }
+            }
+            Op::Step { call, ended } => {
+                let over = self.step_call(p, call, base);
+                if self.abort.is_some() {
+                    return Some(Stop::Abort);
+                }
+                self.set(b(ended), truth(over));
+            }
+            Op::Cut { call, cause } => self.cut_call(p, call, base, cause),
+            Op::PutOn { overlay } => self.put_on(p, overlay, base),
+            Op::TakeOff { overlay } => self.take_off(p, overlay, base, albacore_program::Cause::Done),
+
+            Op::Ask { offered } => self.ask_for_control(offered),
+            Op::Answer { ours, refused, offered } => {
+                let (is_ours, is_refused) = self.answer(offered);
+                self.set(b(ours), truth(is_ours));
+                self.set(b(refused), truth(is_refused));
+            }
+            Op::Take => self.take(),
+            Op::Driven { suspended, lost } => {
+                let (is_suspended, is_lost) = self.driven();
+                self.set(b(suspended), truth(is_suspended));
+                self.set(b(lost), truth(is_lost));
+            }
+            Op::Desert { end } => {
+                if self.desert(OverrideEnd::from_number(self.get(b(end)))) {
+                    return Some(Stop::Abort);
+                }
+            }
+
+            Op::AskPayload { action, id } => self.ask_payload(action, b(id)),
+            Op::Heard { id, answer, ended } => self.hear(b(id), b(answer), b(ended)),
+            Op::Unanswered { id } => self.unanswered(b(id)),
+
+            Op::Tell { statement } => self.tell_beginning(p, statement, base),
+            Op::Report { site } => self.report(p, site, base),
+            Op::Log { text } => self.log(p, text, base),
+            Op::Changed { memory } => self.remember(p, memory, base),
+        }
+        None
     }
 
     fn on_area(&mut self, op: AreaOp, base: Slot) {

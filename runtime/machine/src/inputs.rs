@@ -48,7 +48,7 @@ struct Wire {
     input: u32,
     /// Where its block is, and the layout of that.
     at: Slot,
-    words: u32,
+    end: Slot,
     width: u32,
     kept: u32,
     /// Whether it holds what is counted, which not every number can be.
@@ -73,7 +73,7 @@ pub(crate) fn wiring(program: &Program, measurements: &[Measurement]) -> Result<
         let place = program.inputs.iter().position(|input| input.name == measurement.name)?;
         let input = &program.inputs[place];
         let Input { at, width, kept, .. } = *input;
-        Some(Wire { input: place as u32, at, words: input.words(), width, kept, counts: input.counts() })
+        Some(Wire { input: place as u32, at, end: at + input.words(), width, kept, counts: input.counts() })
     };
     let wires = measurements.iter().map(wire).collect();
     Ok(Wiring { wires, blocks: program.inputs.iter().map(|input| input.at).collect() })
@@ -113,10 +113,12 @@ impl Run {
     /// Takes in the samples of a tick. A sample that no value of its input can be is as if it had not come: the checker's
     /// ranges hold for what is taken in.
     pub fn take_in(&mut self, program: &Program, wiring: &Wiring, samples: &[Sample]) {
-        for &at in &wiring.blocks {
-            // Until a sample comes the peak is the latest value.
-            let value = self.get(at + Input::VALUE);
-            self.set(at + Input::PEAK, value);
+        // Until a sample comes the peak is the latest value.
+        if std::mem::take(&mut self.peaks_differ) {
+            for &at in &wiring.blocks {
+                let value = self.get(at + Input::VALUE);
+                self.set(at + Input::PEAK, value);
+            }
         }
         let tick = self.state.tick as f64;
         let mut is_echo = true;
@@ -130,24 +132,30 @@ impl Run {
                 _ => {}
             }
             let Some(Some(wire)) = wiring.wires.get(sample.input_measurement() as usize) else { continue };
-            let width = (wire.width as usize).min(sample.reading.len());
-            let numbers = &sample.reading[..width];
-            let is_admitted = match wire.counts {
-                true => program.inputs[wire.input as usize].admits(numbers),
-                false => Input::is_bounded(numbers),
-            };
-            if !is_admitted {
+            let numbers = &sample.reading[..(wire.width as usize).min(sample.reading.len())];
+            if !Input::is_bounded(numbers) || wire.counts && !program.inputs[wire.input as usize].admits(numbers) {
                 continue;
             }
             // The block is found once, not anew for each of its words.
-            let block = self.state.words.get_mut(wire.at as usize..(wire.at + wire.words) as usize);
-            let Some([stamp, peak, count, values @ ..]) = block else { continue };
-            *peak = if *stamp == tick { peak.max(numbers[0]) } else { numbers[0] };
-            *stamp = tick;
-            values[..width].copy_from_slice(numbers);
+            let block = self.state.words.get_mut(wire.at as usize..wire.end as usize);
+            let Some([stamp, peak, count, first, rest @ ..]) = block else { continue };
+            let number = numbers[0];
+            if *stamp == tick {
+                *peak = peak.max(number);
+                self.peaks_differ = true;
+            } else {
+                *peak = number;
+            }
+            (*stamp, *first) = (tick, number);
+            // Most are one number.
+            if let [_, others @ ..] = numbers
+                && !others.is_empty()
+            {
+                rest[..others.len()].copy_from_slice(others);
+            }
             if wire.kept > 0 {
                 let place = (*count as u64 % u64::from(wire.kept)) as usize;
-                values[wire.width as usize + place] = numbers[0];
+                rest[wire.width as usize - 1 + place] = number;
             }
             *count += 1.0;
         }

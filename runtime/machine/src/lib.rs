@@ -8,6 +8,7 @@ mod aground;
 mod allowance;
 mod area;
 mod bottom;
+mod bound;
 mod clocks;
 mod command;
 mod compute;

@@ -1,6 +1,7 @@
 //! Way for a vehicle that is deeper than its limits allow and does not rise: fins lift nothing that stands still, or creeps.
 
 use crate::Event;
+use crate::bottom::Below;
 use crate::sinking::Sinking;
 use crate::state::Run;
 use albacore_vehicle::{TICK_S, Vertical};
@@ -56,7 +57,7 @@ pub(crate) struct Deep {
 impl Run {
     /// The speed through the water that a vehicle makes which is asked to make so much, m/s. More, if it is deeper than its limits allow
     /// and does not rise; as far as the limit of speed lets it.
-    pub fn lift(&mut self, asked: f64, vertical: Vertical) -> f64 {
+    pub fn lift(&mut self, asked: f64, vertical: Vertical, below: &Below) -> f64 {
         let speed = LIFT_SPEED.min(self.state.limits.speed.1);
         let before = self.state.lift;
         let (tick, depth) = (self.state.tick, self.depth());
@@ -66,15 +67,15 @@ impl Run {
         // Who dives as told does not sink.
         let sinks = match vertical {
             Vertical::Depth(told) => depth > told + SUNK_M,
-            Vertical::Altitude(told) => self.sounded().is_some_and(|altitude| altitude < told - SUNK_M),
+            Vertical::Altitude(told) => below.sounded.is_some_and(|altitude| altitude < told - SUNK_M),
         };
         self.state.sinking = match is_anew || !sinks {
             true => Sinking::from(tick, depth),
             false => self.state.sinking.after(tick, depth),
         };
-        if let Some(by) = self.too_deep().filter(|_| speed > 0.0) {
+        if let Some(by) = self.too_deep(below).filter(|_| speed > 0.0) {
             let by = by + self.state.sinking.ahead();
-            let now = Deep { by, depth, altitude: self.sounded(), is_low: self.is_low() };
+            let now = Deep { by, depth, altitude: below.sounded, is_low: below.is_low() };
             let before = if is_anew { before.anew(tick, now) } else { before };
             self.state.lift = before.after(tick, now);
         }

@@ -4,6 +4,7 @@ use crate::activity::Status;
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
+use crate::bound::Bound;
 use crate::inputs::{MissingInput, Wiring, senses, wiring};
 use crate::lift::Lift;
 use crate::rest::Rest;
@@ -71,16 +72,26 @@ impl Run {
         Run {
             state,
             events: Vec::new(),
+            peaks_differ: true,
             in_overlay: false,
             is_lost: false,
             abort: None,
             deserted: None,
             asks: false,
             requests: Vec::new(),
+            amenders: Vec::new(),
+            amenders_known: false,
             senses: senses(p),
             chart: None,
             trig: Trig::new(),
+            bound: Bound::default(),
         }
+    }
+
+    /// Forgets what it knows of its words: they were put in place.
+    fn forget(&mut self) {
+        self.peaks_differ = true;
+        self.amenders_known = false;
     }
 
     pub fn number(&mut self, p: &Program, code: &Code) -> f64 {
@@ -116,6 +127,7 @@ impl Machine {
     /// Goes back, or on, to a state of the same program.
     pub fn restore(&mut self, state: State) {
         self.run.state = state;
+        self.run.forget();
         self.run.events.clear();
         self.run.abort = None;
         self.run.deserted = None;
@@ -157,6 +169,7 @@ impl Machine {
     pub fn put(&mut self, at: Slot, words: &[f64]) {
         if let Some(place) = self.run.state.words.get_mut(at as usize..at as usize + words.len()) {
             place.copy_from_slice(words);
+            self.run.forget();
         }
     }
 
@@ -200,6 +213,7 @@ impl Machine {
     pub fn step(&mut self, snapshot: &Snapshot) -> Option<Command> {
         let Machine { program, wiring, run } = self;
         let p = program.as_ref();
+        run.amenders_known &= run.events.is_empty();
         run.events.clear();
         run.asks = false;
         run.requests.clear();

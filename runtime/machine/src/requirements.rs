@@ -105,6 +105,9 @@ impl Run {
     pub fn hold_while_stale(&mut self, p: &Program, time_is_up: bool) -> Option<Option<Command>> {
         let tick = self.state.tick;
         let lagging = self.lagging();
+        if lagging.is_none() && self.are_fresh(p) && !matches!(self.state.phase, Phase::Holding(_)) {
+            return None;
+        }
         let (mut any_stale, mut lost) = (lagging.is_some(), self.lost_link(lagging.as_deref()));
         for (i, require) in p.mission.requires.iter().enumerate() {
             let input = &p.inputs[require.input as usize];
@@ -142,5 +145,14 @@ impl Run {
             return Some(self.time_out(p));
         }
         Some(self.drives().then(|| self.still_command(p)))
+    }
+
+    /// Whether all that is required is as fresh as it was in the tick before: so it is almost always.
+    fn are_fresh(&self, p: &Program) -> bool {
+        let (now, round_trip) = (self.state.tick as f64, self.state.lag.round_trip as f64);
+        p.mission.requires.iter().zip(&self.state.requires).all(|(require, known)| {
+            let stamp = self.get(p.inputs[require.input as usize].at + Input::STAMP);
+            !known.stale && (stamp < 0.0 || now - stamp + round_trip <= known.fresh)
+        })
     }
 }

@@ -3,6 +3,7 @@
 use crate::aground::Aground;
 use crate::allowance::Allowance;
 use crate::bottom::{Bottom, Chart};
+use crate::bound::Bound;
 use crate::lift::Lift;
 use crate::payload::{Question, Request};
 use crate::rest::Rest;
@@ -153,6 +154,15 @@ impl Limits {
         Limits { altitude: (0.0, f64::MAX), depth: (0.0, f64::MAX), speed: (0.0, f64::MAX), turn_rate: TURN_RATE_MAX };
 
     /// The least and the greatest value of a setpoint.
+    pub fn within(&self, channel: Channel) -> (f64, f64) {
+        match channel {
+            Channel::Depth => self.depth,
+            Channel::Altitude => self.altitude,
+            Channel::Speed => self.speed,
+        }
+    }
+
+    /// The same, to be set.
     pub fn of(&mut self, channel: Channel) -> &mut (f64, f64) {
         match channel {
             Channel::Depth => &mut self.depth,
@@ -225,6 +235,8 @@ impl Overridden {
 pub(crate) struct Run {
     pub state: State,
     pub events: Vec<Event>,
+    /// The peak of some input may be another than its latest value: several samples came in a tick, or the words were put in place.
+    pub peaks_differ: bool,
     /// An overlay is being stepped: what it keeps is an override.
     pub in_overlay: bool,
     /// In this tick a law went by a position that has not come for a while.
@@ -237,10 +249,15 @@ pub(crate) struct Run {
     pub asks: bool,
     /// What payloads are asked in this tick.
     pub requests: Vec<Request>,
+    /// The overlays that amend the course, in their order, with the bases of their wearers' frames; and whether they are known: what is
+    /// entered or left makes an event.
+    pub amenders: Vec<(u32, Slot)>,
+    pub amenders_known: bool,
     pub senses: Senses,
     /// What is known of the water's depth beforehand.
     pub chart: Option<Chart>,
     pub trig: Trig,
+    pub bound: Bound,
 }
 
 /// Where the inputs are that guidance itself reads; absolute slots of their blocks.

@@ -27,11 +27,13 @@ impl Trig {
     }
 
     /// The unit vector along an angle in radians, clockwise from north.
+    #[inline(never)]
     pub fn unit(&mut self, angle_rad: f64) -> Vector {
         self.units.get(angle_rad.to_bits(), || Heading::from_radians(angle_rad).unit())
     }
 
     /// The direction of a vector, in radians.
+    #[inline(never)]
     pub fn toward(&mut self, v: Vector) -> f64 {
         self.directions.get((v.north.to_bits(), v.east.to_bits()), || v.toward().radians())
     }

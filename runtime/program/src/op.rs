@@ -91,11 +91,23 @@ pub enum Op {
 
 impl Op {
     /// Where it may jump to.
-    pub(crate) fn jump(&self) -> Option<Addr> {
+    pub fn jump(&self) -> Option<Addr> {
         match *self {
             Op::Compute(Compute::Jump { to, .. }) => Some(to),
             _ => None,
         }
+    }
+
+    /// Whether the instruction after it is never reached from it.
+    pub fn ends(&self) -> bool {
+        matches!(
+            self,
+            Op::Return
+                | Op::End
+                | Op::Finish
+                | Op::Abort { .. }
+                | Op::Compute(Compute::Jump { when: When::Always, .. })
+        )
     }
 
     /// The same, to be set once it is known.

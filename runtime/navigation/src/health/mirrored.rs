@@ -3,6 +3,7 @@
 //! noise of the gauge does neither.
 
 use super::Heard;
+use super::noise::share;
 
 /// The means are taken over so many changes of the depth ...
 const CHANGES: u64 = 300;
@@ -40,7 +41,7 @@ impl Mirrored {
             return;
         }
         self.changes += 1;
-        let share = 1.0 / self.changes.min(CHANGES) as f64;
+        let share = share(self.changes, CHANGES);
         self.depths += share * (depth * depth - self.depths);
         self.altitudes += share * (altitude * altitude - self.altitudes);
         self.mirrored += share * (depth * altitude - self.mirrored);
@@ -49,8 +50,9 @@ impl Mirrored {
 
     /// Whether the changes of the depth are those of the vehicle.
     pub fn is_the_vehicles(&self) -> bool {
-        let chance = SIGMAS * (self.depths * self.altitudes / self.changes.min(CHANGES) as f64).sqrt();
         let own = self.follows.abs().max(-self.mirrored);
-        self.changes >= CHANGES_MIN && own > (SHARE * self.depths).max(chance)
+        // A root is asked for where it matters.
+        let chance = || SIGMAS * (self.depths * self.altitudes / self.changes.min(CHANGES) as f64).sqrt();
+        self.changes >= CHANGES_MIN && own > SHARE * self.depths && own > chance()
     }
 }

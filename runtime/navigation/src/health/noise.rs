@@ -79,19 +79,18 @@ impl Noise {
     pub fn learn(&mut self, difference: f64) {
         self.changes += 1;
         self.step = if difference == 0.0 { self.step } else { self.step.min(difference.abs()) };
-        let share = |most: u64| 1.0 / self.changes.min(most) as f64;
         let off = difference - (self.drift + self.trend);
-        let drift = share(DRIFT_CHANGES);
+        let drift = share(self.changes, DRIFT_CHANGES);
         self.drift += self.trend + drift * (2.0 - drift) * off;
         if self.changes > DRIFT_CHANGES {
             self.trend += drift * drift * off;
         }
-        self.first.take(off, share(CHANGES));
+        self.first.take(off, share(self.changes, CHANGES));
         let second = difference - self.differences[0];
         let third = second - self.differences[1];
         self.differences = [difference, second];
         if let Some(changes @ 1..) = self.changes.checked_sub(BEFORE_THIRD) {
-            self.third.take(third, 1.0 / changes.min(CHANGES) as f64);
+            self.third.take(third, share(changes, CHANGES));
         }
     }
 
@@ -104,6 +103,13 @@ impl Noise {
             && self.third.is_white(&THIRD, FLICKER_GAIN * least * least)
             && (period_ticks > 1 && !is_steered || self.first.is_white(&FIRST, least * least))
     }
+}
+
+/// What the latest of so many counts for in a mean over so many at most.
+#[inline]
+pub(super) fn share(numbers: u64, most: u64) -> f64 {
+    // Almost always there are more: a quotient of constants costs nothing.
+    if numbers < most { 1.0 / numbers as f64 } else { 1.0 / most as f64 }
 }
 
 impl Series {

@@ -202,4 +202,56 @@ impl Compute {
     pub fn jump_unless(word: Slot, to: Addr) -> Self {
         Compute::Jump { to, when: When::False(word) }
     }
+
+    /// The same with other operands: each slot as `at` gives it.
+    pub fn with_slots(self, at: impl Fn(Slot) -> Slot) -> Self {
+        use Compute as C;
+        match self {
+            C::Const { to, value } => C::Const { to: at(to), value },
+            C::Copy { to, from } => C::Copy { to: at(to), from: at(from) },
+            C::CopyMany { to, from, words } => C::CopyMany { to: at(to), from: at(from), words },
+            C::Clear { to, words } => C::Clear { to: at(to), words },
+            C::One { operator, to, a } => C::One { operator, to: at(to), a: at(a) },
+            C::Two { operator, to, a, b } => C::Two { operator, to: at(to), a: at(a), b: at(b) },
+            C::Quotient { to, a, b } => C::Quotient { to: at(to), a: at(a), b: at(b) },
+            C::Lt { to, a, b } => C::Lt { to: at(to), a: at(a), b: at(b) },
+            C::Le { to, a, b } => C::Le { to: at(to), a: at(a), b: at(b) },
+            C::Eq { to, a, b, words } => C::Eq { to: at(to), a: at(a), b: at(b), words },
+            C::Not { to, a } => C::Not { to: at(to), a: at(a) },
+            C::And { to, a, b } => C::And { to: at(to), a: at(a), b: at(b) },
+            C::Or { to, a, b } => C::Or { to: at(to), a: at(a), b: at(b) },
+            C::AddVector { to, a, b } => C::AddVector { to: at(to), a: at(a), b: at(b) },
+            C::SubVector { to, a, b } => C::SubVector { to: at(to), a: at(a), b: at(b) },
+            C::Scale { to, vector, by } => C::Scale { to: at(to), vector: at(vector), by: at(by) },
+            C::Toward { to, length, heading } => C::Toward { to: at(to), length: at(length), heading: at(heading) },
+            C::Direction { to, vector } => C::Direction { to: at(to), vector: at(vector) },
+            C::Dot { to, a, b } => C::Dot { to: at(to), a: at(a), b: at(b) },
+            C::Along { to, vector, heading } => C::Along { to: at(to), vector: at(vector), heading: at(heading) },
+            C::EdgeAt { to, area, index } => C::EdgeAt { to: at(to), area: at(area), index: at(index) },
+            C::EdgeGap { to, edge, point } => C::EdgeGap { to: at(to), edge: at(edge), point: at(point) },
+            C::HeldFor { to, x, since, ticks, owner } => {
+                C::HeldFor { to: at(to), x: at(x), since: at(since), ticks: at(ticks), owner: at(owner) }
+            }
+            C::Becomes { to, x, before } => C::Becomes { to: at(to), x: at(x), before: at(before) },
+            C::Elapsed { to, from, ticks, owner } => {
+                C::Elapsed { to: at(to), from: at(from), ticks: at(ticks), owner: at(owner) }
+            }
+            C::Now { to, owner } => C::Now { to: at(to), owner: at(owner) },
+            C::Jump { to, when } => C::Jump { to, when: when.with_slots(at) },
+        }
+    }
+}
+
+impl When {
+    fn with_slots(self, at: impl Fn(Slot) -> Slot) -> Self {
+        match self {
+            When::Always => When::Always,
+            When::True(word) => When::True(at(word)),
+            When::False(word) => When::False(at(word)),
+            When::Less(a, b) => When::Less(at(a), at(b)),
+            When::NotLess(a, b) => When::NotLess(at(a), at(b)),
+            When::AtMost(a, b) => When::AtMost(at(a), at(b)),
+            When::NotAtMost(a, b) => When::NotAtMost(at(a), at(b)),
+        }
+    }
 }
