@@ -5,6 +5,7 @@
 //! of a measurement that is wrong more often than now and then, even where it happens to fit. What no sensor can measure is never
 //! believed. The limits are those of the watch ([`crate::HealthMonitor`]).
 
+use crate::places::Places;
 use albacore_geometry::math::asin;
 use albacore_geometry::{Heading, Point};
 use albacore_vehicle::measurements::{
@@ -102,8 +103,9 @@ struct Judged {
 /// The gate of one run.
 #[derive(Clone, Debug)]
 pub struct Gate {
-    /// Those that are judged.
+    /// Those that are judged, and the place of each measurement among them.
     measurements: Vec<Judged>,
+    places: Places,
     /// The speed over ground that was believed last, m/s.
     speed: f64,
     events: Vec<Doubt>,
@@ -112,14 +114,20 @@ pub struct Gate {
 impl Default for Gate {
     fn default() -> Self {
         let judged = (0..).zip(&measurements::ALL).filter(|(_, row)| row.is_gated);
-        Gate { measurements: judged.map(|(number, _)| Judged::new(number)).collect(), speed: 0.0, events: Vec::new() }
+        Gate {
+            measurements: judged.map(|(number, _)| Judged::new(number)).collect(),
+            places: Places::of(|row| row.is_gated),
+            speed: 0.0,
+            events: Vec::new(),
+        }
     }
 }
 
 impl Gate {
     /// Whether a sample of a tick is believed.
     pub fn believes(&mut self, tick: u64, measurement: u16, reading: Reading) -> bool {
-        let Some(judge) = self.measurements.iter_mut().find(|judged| judged.number == measurement) else { return true };
+        let place = self.places.of_number(measurement);
+        let Some(judge) = place.and_then(|place| self.measurements.get_mut(place)) else { return true };
         if measurement == COURSE && self.speed < HAS_COURSE && is_possible(COURSE, reading) {
             // What follows has nothing to follow.
             *judge = Judged::new(COURSE);

@@ -10,6 +10,7 @@ mod motion;
 mod noise;
 mod watched;
 
+use crate::places::Places;
 use albacore_vehicle::measurements::{
     self, ALTITUDE, COURSE, DEPTH, FLOW, HEADING, POSITION, SPEED, WATER_DEPTH, info,
 };
@@ -100,7 +101,7 @@ impl fmt::Display for AnomalyEvent {
 pub struct HealthMonitor {
     /// Those that are watched, and the place of each measurement among them.
     measurements: Vec<Watched>,
-    places: Vec<Option<u8>>,
+    places: Places,
     mirrored: Mirrored,
     motion: Motion,
     commanded: Commanded,
@@ -117,7 +118,7 @@ struct Credible {
     reading: Reading,
     /// For how many ticks it has been exactly the same.
     same: u64,
-    /// Whether the measurement has shown that it never stays the same for long.
+    /// Of a flow, whether it has shown that it never stays the same for long.
     lively: bool,
 }
 
@@ -146,10 +147,8 @@ struct Anomalies {
 impl Default for HealthMonitor {
     fn default() -> Self {
         let watched = (0..).zip(&measurements::ALL).filter(|(_, row)| row.is_watched);
-        let mut next = 0..;
-        let places = measurements::ALL.iter().map(|row| if row.is_watched { next.next() } else { None });
         HealthMonitor {
-            places: places.collect(),
+            places: Places::of(|row| row.is_watched),
             measurements: watched.map(|(number, _)| Watched::new(number)).collect(),
             mirrored: Mirrored::default(),
             motion: Motion::default(),
@@ -170,7 +169,7 @@ impl HealthMonitor {
         let mut heard = Heard { tick, ..Heard::default() };
         let mut water_depth = None;
         for sample in &snapshot.samples {
-            match place(&self.places, sample.measurement).and_then(|place| self.measurements.get_mut(place)) {
+            match self.places.of_number(sample.measurement).and_then(|place| self.measurements.get_mut(place)) {
                 Some(measurement) => {
                     let credible = measurement.hear(tick, sample.reading, &mut self.anomalies);
                     heard.take(sample.measurement, credible);
@@ -196,7 +195,7 @@ impl HealthMonitor {
     }
 
     fn watched(&mut self, measurement: u16) -> Option<&mut Watched> {
-        place(&self.places, measurement).and_then(|place| self.measurements.get_mut(place))
+        self.places.of_number(measurement).and_then(|place| self.measurements.get_mut(place))
     }
 
     /// Whether something is seen now.
@@ -224,11 +223,6 @@ impl HealthMonitor {
             self.anomalies.see(Anomaly::DepthAgainstWater);
         }
     }
-}
-
-/// Where a measurement stands among those that are watched.
-fn place(places: &[Option<u8>], measurement: u16) -> Option<usize> {
-    places.get(usize::from(measurement)).copied().flatten().map(usize::from)
 }
 
 impl Heard {

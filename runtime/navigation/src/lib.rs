@@ -9,6 +9,7 @@ mod gate;
 mod health;
 mod navigator;
 mod navigators;
+mod places;
 mod sounding;
 mod trust;
 

@@ -17,6 +17,17 @@ use albacore_vehicle::{Command, Sample, Snapshot};
 const MISPLACED: [Anomaly; 4] =
     [Anomaly::Stuck(POSITION), Anomaly::Jumps(POSITION), Anomaly::SpeedAgainstPosition, Anomaly::CourseAgainstPosition];
 
+/// What samples are held against in a tick.
+#[derive(Clone, Copy)]
+struct Look<'a> {
+    tick: u64,
+    command: Option<&'a Command>,
+    aground: bool,
+    depth_is_stuck: bool,
+    altitude_is_stuck: bool,
+    is_misplaced: bool,
+}
+
 /// What is believed in one run: a function of what came and what was commanded.
 #[derive(Clone, Debug, Default)]
 pub struct Trust {
@@ -31,24 +42,35 @@ impl Trust {
     pub fn look(&mut self, tick: u64, snapshot: &mut Snapshot, command: Option<&Command>) -> Vec<String> {
         let mut events: Vec<String> = Vec::new();
         events.extend(self.health.look(tick, snapshot, command).iter().map(ToString::to_string));
-        // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
-        let depth_is_stuck = self.health.sees(Anomaly::Stuck(DEPTH));
-        let is_misplaced = MISPLACED.iter().any(|anomaly| self.health.sees(*anomaly));
-        // What is made of others is doubtful with them, and so it is looked at after them.
         let altitude_is_stuck = self.health.sees(Anomaly::Stuck(ALTITUDE));
+        let look = Look {
+            tick,
+            command,
+            aground: snapshot.aground,
+            // Depth and altitude tell of one another: with a depth that stands still nothing is known of the bottom.
+            depth_is_stuck: self.health.sees(Anomaly::Stuck(DEPTH)),
+            altitude_is_stuck,
+            is_misplaced: MISPLACED.iter().any(|anomaly| self.health.sees(*anomaly)),
+        };
         let mut doubtful: Vec<u16> = altitude_is_stuck.then_some(ALTITUDE).into_iter().collect();
-        let sources = |sample: &Sample| info(sample.origin()).sources;
+        // What is made of others is doubtful with them, and so it is looked at after them.
+        let mut some_are_made = false;
         for made in [false, true] {
-            for sample in snapshot.samples.iter_mut().filter(|sample| sources(sample).is_empty() != made) {
-                let believed = !sources(sample).iter().any(|source| doubtful.contains(source))
-                    && (!altitude_is_stuck || sample.measurement != ALTITUDE)
-                    && self.gate.believes(tick, sample.measurement, sample.reading);
-                if !believed {
+            if made && !some_are_made {
+                break;
+            }
+            for sample in &mut snapshot.samples {
+                let sources = info(sample.origin()).sources;
+                if sources.is_empty() == made {
+                    some_are_made |= !made;
+                    continue;
+                }
+                if sources.iter().any(|source| doubtful.contains(source)) || !self.believes(sample, &look) {
                     doubtful.push(sample.measurement);
                     sample.withhold();
-                } else if !self.sounds(tick, sample, command, snapshot.aground)
-                    || depth_is_stuck && sample.measurement == ALTITUDE
-                    || is_misplaced && sample.measurement == POSITION
+                } else if !self.sounds(sample, &look)
+                    || look.depth_is_stuck && sample.measurement == ALTITUDE
+                    || look.is_misplaced && sample.measurement == POSITION
                 {
                     sample.doubt();
                 }
@@ -59,12 +81,18 @@ impl Trust {
         events
     }
 
+    /// Whether a sample is believed that is made of nothing doubtful.
+    fn believes(&mut self, sample: &Sample, look: &Look) -> bool {
+        (!look.altitude_is_stuck || sample.measurement != ALTITUDE)
+            && self.gate.believes(look.tick, sample.measurement, sample.reading)
+    }
+
     /// Whether a sample that the gate believes can be what the sounder hears.
-    fn sounds(&mut self, tick: u64, sample: &Sample, command: Option<&Command>, aground: bool) -> bool {
+    fn sounds(&mut self, sample: &Sample, look: &Look) -> bool {
         let number = sample.reading[0];
         match sample.measurement {
             DEPTH if number.is_finite() => self.sounding.dive(number),
-            ALTITUDE => return self.sounding.believes(tick, number, command, aground),
+            ALTITUDE => return self.sounding.believes(look.tick, number, look.command, look.aground),
             _ => {}
         }
         true

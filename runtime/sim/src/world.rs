@@ -13,7 +13,7 @@ pub(crate) mod water;
 
 use crate::scenario::{Scenario, ScenarioIssues};
 use crate::world::beacon::Beacon;
-use crate::world::bottom::{Bottom, Ground, NoGo, Pit, Plane};
+use crate::world::bottom::{Bottom, Ground, NoGo, Pit, Plane, Seabed};
 use crate::world::plume::{Leak, Patch, Plume, Source};
 use crate::world::recorded::{Playback, RecordedPlume};
 use crate::world::simulated::Simulated;
@@ -151,7 +151,7 @@ pub struct World {
     upper: Option<UpperFlow>,
     sea: Option<Sea>,
     stratification: Stratification,
-    bottom: Bottom,
+    bottom: Seabed,
     beacon: Option<Beacon>,
 }
 
@@ -176,7 +176,7 @@ impl World {
         let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
         let (stratification, beacon) =
             (scenario.environment.stratification.clone(), scenario.environment.beacon.clone());
-        World { carrier, upper, sea, stratification, bottom, beacon }
+        World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.

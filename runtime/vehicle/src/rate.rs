@@ -7,7 +7,8 @@ const TOLERANCE: f64 = 1e-9;
 
 /// How manieth sample it is that falls on a tick or between it and the one before.
 pub fn sample(rate: f64, tick: u64) -> u64 {
-    (tick as f64 * (rate * TICK_S) + TOLERANCE).floor() as u64
+    // The cast rounds down.
+    (tick as f64 * (rate * TICK_S) + TOLERANCE) as u64
 }
 
 /// Whether a sample of an instrument with so many a second, ten at most, falls on a tick or between it and the one before.

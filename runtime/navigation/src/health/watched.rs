@@ -106,8 +106,10 @@ impl Watched {
         }
         let since = if self.same > 0 { since } else { tick };
         self.reading = Some((reading, since));
-        let lively = self.is_lively();
-        if lively && self.of.quantity != Quantity::Flow && self.same >= self.stuck_samples(reading[0]) {
+        // That a flow stands still is asked elsewhere: its profiler may not measure.
+        let is_flow = self.of.quantity == Quantity::Flow;
+        let lively = is_flow && self.is_lively();
+        if !is_flow && self.same > 0 && self.same >= self.stuck_samples(reading[0]) && self.is_lively() {
             anomalies.see(Anomaly::Stuck(self.number));
         }
         if !follows {

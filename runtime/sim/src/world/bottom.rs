@@ -7,8 +7,8 @@ pub(crate) use settings::DEEPEST_M;
 pub(crate) use settings::check;
 pub use settings::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 
-use albacore_geometry::Point;
 use albacore_geometry::math::exp;
+use albacore_geometry::{Point, Vector};
 
 impl Bottom {
     /// A level bottom.
@@ -33,11 +33,23 @@ impl Bottom {
 
     /// Metres of water at a point: those over the ground, and those of the pits.
     pub fn depth_at(&self, p: Point) -> f64 {
+        self.depth(p, self.downhill())
+    }
+
+    fn depth(&self, p: Point, downhill: Vector) -> f64 {
         let ground = match &self.ground {
-            Ground::Plane(plane) => plane.depth_at(p),
+            Ground::Plane(plane) => plane.depth((p - Point::ORIGIN).dot(downhill)),
             Ground::Grid(grid) => grid.depth_at(p),
         };
         self.pits.iter().fold(ground, |depth, pit| depth + pit.depth_at(p))
+    }
+
+    /// The direction in which a plane slopes.
+    fn downhill(&self) -> Vector {
+        match &self.ground {
+            Ground::Plane(plane) => plane.toward.unit(),
+            Ground::Grid(_) => Vector::ZERO,
+        }
     }
 
     /// The water is nowhere deeper than this, m: it is as deep where all pits lie at the deepest place.
@@ -59,10 +71,29 @@ impl Bottom {
     }
 }
 
+/// A bottom that is asked again and again how deep the water is: the direction of its slope is found once.
+#[derive(Clone, Debug)]
+pub struct Seabed {
+    bottom: Bottom,
+    downhill: Vector,
+}
+
+impl Seabed {
+    /// That of a bottom.
+    pub fn new(bottom: Bottom) -> Self {
+        Seabed { downhill: bottom.downhill(), bottom }
+    }
+
+    /// Metres of water at a point.
+    pub fn depth_at(&self, p: Point) -> f64 {
+        self.bottom.depth(p, self.downhill)
+    }
+}
+
 impl Plane {
-    /// Linear from `from` to `to` over the slope, level beyond either end of it.
-    fn depth_at(&self, p: Point) -> f64 {
-        let share = (p.along(self.toward) / self.across + 0.5).clamp(0.0, 1.0);
+    /// Linear from `from` to `to` over the slope, level beyond either end of it; so far along it from the frame's origin, m.
+    fn depth(&self, along: f64) -> f64 {
+        let share = (along / self.across + 0.5).clamp(0.0, 1.0);
         self.from + (self.to - self.from) * share
     }
 }

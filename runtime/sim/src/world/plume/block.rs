@@ -28,7 +28,9 @@ pub struct Block {
     pub filaments: Vec<Filament>,
     /// How many it still takes.
     room: usize,
-    /// What holds where they are when the stride begins and when it ends.
+    /// What holds where they are when the stride ends.
+    ends: Extent,
+    /// The same, and where they are when it begins.
     extent: Extent,
 }
 
@@ -53,7 +55,7 @@ pub struct Drift<'a> {
 impl Block {
     /// An empty one.
     pub fn new() -> Self {
-        Block { filaments: Vec::with_capacity(SIZE), room: SIZE, extent: Extent::default() }
+        Block { filaments: Vec::with_capacity(SIZE), room: SIZE, ends: Extent::default(), extent: Extent::default() }
     }
 
     /// Whether it takes more.
@@ -64,8 +66,9 @@ impl Block {
     /// Takes a filament that was at a place when its stride began.
     pub fn add(&mut self, filament: Filament, from: [f64; 2]) {
         self.room -= 1;
+        self.ends.extend(filament.x, filament.y);
         self.extent.extend(from[0], from[1]);
-        self.extent.extend(filament.x, filament.y);
+        self.extent = self.extent.with(&self.ends);
         self.filaments.push(filament);
     }
 
@@ -82,24 +85,27 @@ impl Block {
         let (dt, per_dt) = (drift.time, 1.0 / drift.time);
         let spread = (2.0 * drift.diffusivity.0 * dt).sqrt();
         let rise = (2.0 * drift.diffusivity.1 * dt).sqrt();
-        if self.filaments.iter().any(|f| drift.has_left(f)) {
+        // Hardly ever has any of a block left.
+        if !self.ends.lies_within(drift.length, drift.width) {
             self.filaments.retain(|f| !drift.has_left(f));
         }
-        let mut extent = Extent::default();
+        // Most plumes have one source.
+        let (only, mut ends) =
+            (if let [only] = drift.origins { Some(&only.diffusion) } else { None }, Extent::default());
         for f in &mut self.filaments {
-            let diffusion = &drift.origins[f.source as usize].diffusion;
+            let diffusion = only.unwrap_or_else(|| &drift.origins[f.source as usize].diffusion);
             let (u, v) = drift.cells.velocity(f.x + drift.half.0, f.y + drift.half.1);
             let [nx, ny, nz] = diffusion.draw(f, drift.until, drift.begun - f.birth);
             let (dx, dy) = (u * dt + spread * nx, v * dt + spread * ny);
-            extent.extend(f.x, f.y);
             f.x += dx;
             f.y += dy;
-            extent.extend(f.x, f.y);
+            ends.extend(f.x, f.y);
             (f.velocity[0], f.velocity[1]) = (dx * per_dt, dy * per_dt);
             f.z += rise * nz;
             f.velocity[2] = rise * nz * per_dt;
         }
-        self.extent = extent;
+        self.extent = ends.with(&self.ends);
+        self.ends = ends;
     }
 }
 
@@ -117,6 +123,16 @@ impl Filament {
     pub fn at(&self, before: f64) -> [f64; 3] {
         let [u, v, w] = self.velocity;
         [self.x - before * u, self.y - before * v, self.z - before * w]
+    }
+
+    /// Whether it comes so near to a place along both axes, m, in its last stride, of which the half lasts so many seconds.
+    #[inline]
+    pub fn comes_near(&self, center: [f64; 2], near: f64, half: f64) -> bool {
+        let along = |end: f64, velocity: f64, center: f64| {
+            let way = half * velocity;
+            (end - way - center).abs() <= near + way.abs()
+        };
+        along(self.x, self.velocity[0], center[0]) && along(self.y, self.velocity[1], center[1])
     }
 
     /// The same on its way, some seconds before.
@@ -149,6 +165,19 @@ impl Extent {
         low[1] = if y < low[1] { y } else { low[1] };
         high[0] = if x > high[0] { x } else { high[0] };
         high[1] = if y > high[1] { y } else { high[1] };
+    }
+
+    /// One that holds another, too.
+    fn with(self, other: &Extent) -> Self {
+        Extent {
+            low: [0, 1].map(|axis| self.low[axis].min(other.low[axis])),
+            high: [0, 1].map(|axis| self.high[axis].max(other.high[axis])),
+        }
+    }
+
+    /// Whether it lies within a box that begins at the origin, m.
+    fn lies_within(&self, length: f64, width: f64) -> bool {
+        self.low.iter().all(|low| *low >= 0.0) && self.high[0] <= length && self.high[1] <= width
     }
 
     /// Whether it comes so near to a place along both axes, m.

@@ -6,14 +6,13 @@ use crate::world::plume::{Filament, FilamentPlume};
 
 /// Queries within this distance of each other in one step share one search, m: a vehicle's way in a step of 1 s.
 const NEIGHBOURHOOD_M: f64 = 2.2;
-/// Searches within this distance of each other share a wide one, m ...
-const WIDE_M: f64 = 24.0;
-/// ... which is for so many steps of the plume: the wider and the longer, the more it finds, and the fewer halves it knows.
-const WIDE_STEPS: u64 = 16;
+/// A search looks through what a wider one has found, which is for so many steps of the plume and for all places within this distance of its
+/// middle, m: the wider and the longer, the more it finds, and the fewer halves it knows. The widest comes first.
+const WIDER: [(u64, f64); 2] = [(16, 14.0), (4, 6.5)];
 
 /// Copies of the filaments that can matter within a neighbourhood during one step.
 ///
-/// One vehicle asks ten times a step and within a few metres, so that one search a step, of those that a wide one has found in the
+/// One vehicle asks ten times a step and within a few metres, so that one search a step, of those that wider ones have found in the
 /// blocks of filaments that reach this far, costs less than the upkeep of a grid. It leaves out only what reads exactly zero and keeps the
 /// order: the sum has the same bits as one over all filaments.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +22,7 @@ pub struct Nearby {
     step: Option<u64>,
     /// As they are at the end of that step.
     filaments: Vec<Filament>,
-    wide: Wide,
+    wider: [Wide; WIDER.len()],
 }
 
 /// The ways of all filaments that can matter farther round, during several steps.
@@ -63,16 +62,15 @@ impl Nearby {
 
     fn search(&mut self, plume: &FilamentPlume, center: [f64; 2], step: u64) {
         (self.center, self.step) = (center, Some(step));
-        let (wide, steps) = (&mut self.wide, WIDE_STEPS.min(plume.stride()).max(1));
-        let first = step - step % steps;
-        if wide.first != Some(first) || !is_within(WIDE_M, center, wide.center) {
-            wide.search(plume, center, step, steps);
-            wide.first = Some(first);
+        for level in 0..WIDER.len() {
+            let (wider, rest) = self.wider.split_at_mut(level);
+            rest[0].search(plume, center, step, level, wider.last());
         }
         let step_s = plume.settings.step;
         let near = Near { center, within: NEIGHBOURHOOD_M };
         self.filaments.clear();
-        for way in &wide.ways {
+        let ways = self.wider.last().map_or(&[][..], |wide| &wide.ways);
+        for way in ways {
             if let Some(part) = plume.bridge.part(&plume.origins, way, step, 1, Some(near)) {
                 let of_step = part.last_step((part.end as f64 - (step + 1) as f64) * step_s, step_s);
                 if of_step.reaches(near) {
@@ -84,16 +82,31 @@ impl Nearby {
 }
 
 impl Wide {
-    /// Searches for so many steps, of which one is given.
-    fn search(&mut self, plume: &FilamentPlume, center: [f64; 2], step: u64, steps: u64) {
-        self.center = center;
+    /// Searches for the steps of its level around a given one, through what a wider search has found or through the whole plume, unless
+    /// what it found before still holds.
+    fn search(&mut self, plume: &FilamentPlume, center: [f64; 2], step: u64, level: usize, wider: Option<&Wide>) {
+        let (steps, distance) = WIDER[level];
+        let steps = steps.min(plume.stride()).max(1);
+        let first = step - step % steps;
+        if self.first == Some(first) && is_within(distance, center, self.center) {
+            return;
+        }
+        (self.center, self.first) = (center, Some(first));
         self.ways.clear();
-        let near = Near { center, within: NEIGHBOURHOOD_M + WIDE_M };
-        let reach = CUT_RADII * plume.largest_squared_radius().sqrt();
-        let near_block = near.within + reach + plume.bridge.farthest_off(plume.stride(), 1);
-        for block in plume.blocks.iter().filter(|block| block.comes_near(center, near_block)) {
-            let ways = block.filaments.iter().map(|f| plume.way(f));
-            self.ways.extend(ways.filter_map(|way| plume.bridge.part(&plume.origins, &way, step, steps, Some(near))));
+        // What is searched within it has its middle within the distance of this, and so on.
+        let near =
+            Near { center, within: NEIGHBOURHOOD_M + WIDER[level..].iter().map(|(_, distance)| distance).sum::<f64>() };
+        let part = |way: &Way| plume.bridge.part(&plume.origins, way, step, steps, Some(near));
+        if let Some(wider) = wider {
+            self.ways.extend(wider.ways.iter().filter_map(part));
+            return;
+        }
+        // What no filament exceeds tells of most that they are far, sooner than their ways do.
+        let aside = CUT_RADII * plume.largest_squared_radius().sqrt() + plume.bridge.farthest_off(plume.stride(), 1);
+        let (most, half) = (near.within + aside, 0.5 * plume.stride() as f64 * plume.settings.step);
+        for block in plume.blocks.iter().filter(|block| block.comes_near(center, most)) {
+            let filaments = block.filaments.iter().filter(|f| f.comes_near(center, most, half));
+            self.ways.extend(filaments.filter_map(|f| part(&plume.way(f))));
         }
     }
 }

@@ -31,6 +31,9 @@ pub struct Way {
     off: f64,
     /// How far from its middle it reads anything, m.
     reach: f64,
+    /// Where it may read anything, along the flow and across it: the middle, and how far to either side, m.
+    middle: [f64; 2],
+    extent: [f64; 2],
 }
 
 /// A place, and how near to it something must reach, m.
@@ -89,7 +92,7 @@ impl Bridge {
     pub fn whole(&self, filament: &Filament, steps: u64, end: u64, end_s: f64) -> Way {
         let (time, age) = (steps as f64 * self.steps.step, end_s - filament.birth);
         let straight = self.steps.straight((age - time).max(0.0));
-        Way {
+        let way = Way {
             age: age - time,
             filament: *filament,
             begin: end - steps,
@@ -98,19 +101,28 @@ impl Bridge {
             straight,
             off: self.farthest_off(steps, straight),
             reach: CUT_RADII * (self.initial + self.growth * age).sqrt(),
-        }
+            middle: [0.0; 2],
+            extent: [0.0; 2],
+        };
+        way.with_bounds()
     }
 
     /// The part of a way in which a filament is at a step of the plume: of so many steps, or of as many as it goes straight on. None if it
     /// reaches nothing near in it.
+    #[inline]
     pub fn part(&self, origins: &[Origin], way: &Way, step: u64, steps: u64, near: Option<Near>) -> Option<Way> {
+        // Most are far.
+        if near.is_some_and(|near| !way.reaches(near)) { None } else { self.part_of(origins, way, step, steps, near) }
+    }
+
+    /// The same of one that is not far as a whole.
+    #[inline(never)]
+    fn part_of(&self, origins: &[Origin], way: &Way, step: u64, steps: u64, near: Option<Near>) -> Option<Way> {
         let is_far = |way: &Way| near.is_some_and(|near| !way.reaches(near));
-        if is_far(way) {
-            return None;
-        }
         let (mut way, most) = (*way, way.straight.max(steps));
         while way.end - way.begin > most {
             self.halve(origins, &mut way, step);
+            way = way.with_bounds();
             if is_far(&way) {
                 return None;
             }
@@ -159,20 +171,24 @@ impl Bridge {
 }
 
 impl Way {
+    /// The same with the bounds of where it reads anything.
+    #[inline]
+    fn with_bounds(mut self) -> Self {
+        let (half, f) = (0.5 * self.time, &self.filament);
+        self.middle = [f.x - half * f.velocity[0], f.y - half * f.velocity[1]];
+        let aside = self.off + self.reach;
+        self.extent = [aside + half * f.velocity[0].abs(), aside + half * f.velocity[1].abs()];
+        self
+    }
+
     /// Whether it may reach something near along both axes.
     #[inline]
     pub fn reaches(&self, near: Near) -> bool {
-        let (half, within) = (0.5 * self.time, near.within + self.off + self.reach);
-        // The interval of a coordinate: its middle, give or take half the way.
-        let comes_near = |end: f64, velocity: f64, center: f64| {
-            (end - half * velocity - center).abs() <= within + half * velocity.abs()
-        };
-        let f = &self.filament;
-        comes_near(f.x, f.velocity[0], near.center[0]) && comes_near(f.y, f.velocity[1], near.center[1])
+        (0..2).all(|axis| (self.middle[axis] - near.center[axis]).abs() <= near.within + self.extent[axis])
     }
 
     /// The last step of a part that goes straight on, which ends so many seconds later than that step.
     pub fn last_step(&self, later: f64, step_s: f64) -> Way {
-        Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }
+        Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }.with_bounds()
     }
 }
