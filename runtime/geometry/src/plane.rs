@@ -77,7 +77,11 @@ impl Vector {
 
     /// Its component to the right of a direction.
     pub fn right_of(self, direction: Heading) -> f64 {
-        let unit = direction.unit();
+        self.right_of_unit(direction.unit())
+    }
+
+    /// Its component to the right of the direction of a unit vector.
+    pub fn right_of_unit(self, unit: Vector) -> f64 {
         self.east * unit.north - self.north * unit.east
     }
 

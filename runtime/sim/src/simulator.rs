@@ -44,6 +44,8 @@ pub struct Simulator {
     /// What it did in the last tick, whoever wanted it.
     did: Option<Command>,
     truth: Truth,
+    /// Where the chemical sensor's intake is, and its height above the bottom, m.
+    intake: (Point, f64),
     incidents: Incidents,
     faults: Faults,
     payload: PayloadBay,
@@ -79,6 +81,7 @@ impl Simulator {
             command: None,
             did: None,
             truth: Truth::default(),
+            intake: (start, 0.0),
             incidents: Incidents::new(&scenario.environment.no_go),
             faults: Faults::new(&scenario.faults, seed),
             payload: PayloadBay::new(&scenario.payloads, seed),
@@ -210,7 +213,8 @@ impl Simulator {
         let v = self.vehicle.motion();
         let time = self.time_s();
         let altitude = self.world.water_depth(v.position) - v.depth;
-        let (intake, height) = self.instruments.intake(v, &self.world);
+        self.intake = self.instruments.intake(v, &self.world);
+        let (intake, height) = self.intake;
         self.truth = Truth {
             position: v.position,
             heading: v.heading,
@@ -237,6 +241,7 @@ impl Simulator {
             tick,
             world: &mut self.world,
             truth: &self.truth,
+            intake: self.intake,
             ground_velocity: self.vehicle.motion().ground_velocity,
             current: self.faults.ailing().current,
             charge: (1.0 - tick as f64 * TICK_S / self.endurance).max(0.0),

@@ -152,8 +152,10 @@ impl Snapshot {
     /// Adds a sample; numbers beyond the fourth are not carried.
     pub fn push(&mut self, measurement: u16, numbers: &[f64]) {
         let mut reading = Reading::default();
-        for (slot, number) in reading.iter_mut().zip(numbers) {
-            *slot = *number;
+        match numbers {
+            // Most are one number, which is copied sooner than a copy of any length is called.
+            [number] => reading[0] = *number,
+            _ => reading.iter_mut().zip(numbers).for_each(|(slot, number)| *slot = *number),
         }
         self.samples.push(Sample { measurement, reading });
     }

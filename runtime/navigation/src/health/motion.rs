@@ -3,8 +3,8 @@
 use super::{Anomalies, Anomaly, Heard};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_vehicle::TICK_S;
 use albacore_vehicle::measurements::{FLOW, POSITION};
+use albacore_vehicle::{Reading, TICK_S};
 
 /// Positions and velocities are compared over about so long, s.
 const WINDOW_S: f64 = 60.0;
@@ -68,30 +68,32 @@ impl Motion {
             anomalies.see(Anomaly::Stuck(POSITION));
         }
         let velocity = heard.course.zip(heard.speed);
-        let velocity = velocity.map(|(course, speed)| (Heading::from_radians(course.reading[0]), speed.reading[0]));
+        let ahead = |course: Reading| Heading::from_radians(course[0]).unit();
+        let velocity = velocity.map(|(course, speed)| (ahead(course.reading), speed.reading[0]));
         self.compare_with_positions(heard, velocity, anomalies);
-        let Some((course, speed)) = velocity else { return };
-        self.compare_with_heading(heard, speed * course.unit(), anomalies);
+        let Some((ahead, speed)) = velocity else { return };
+        self.compare_with_heading(heard, speed * ahead, anomalies);
     }
 
-    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Heading, f64)>, anomalies: &mut Anomalies) {
+    /// The velocity is the unit vector of the course, and the speed, m/s.
+    fn compare_with_positions(&mut self, heard: &Heard, velocity: Option<(Vector, f64)>, anomalies: &mut Anomalies) {
         let Some(told) = heard.position else { return };
         let here = Point::new(told.reading[0], told.reading[1]);
         let before = self.position.replace((heard.tick, here));
-        let (Some((tick, there)), Some((course, speed))) = (before, velocity) else { return };
+        let (Some((tick, there)), Some((ahead, speed))) = (before, velocity) else { return };
         let ticks = heard.tick.saturating_sub(tick);
         if ticks == 0 || ticks > GAP_MAX || anomalies.sees(Anomaly::Stuck(POSITION)) {
             return;
         }
         let time = ticks as f64 * TICK_S;
-        let more = (here - there) - time * speed * course.unit();
+        let more = (here - there) - time * speed * ahead;
         let keep = (1.0 - time / WINDOW_S).max(0.0);
         (self.along, self.right, self.way) = (keep * self.along, keep * self.right, keep * self.way);
         if more.length() > FIX_MIN + SPEED_MIN * time {
             return;
         }
-        self.along += more.along(course);
-        self.right += more.right_of(course);
+        self.along += more.dot(ahead);
+        self.right += more.right_of_unit(ahead);
         self.way += (time * speed).max((here - there).length());
         let most = SHARE_MAX * self.way + DIFFERENCE_MAX;
         if self.way > WAY_MIN && self.along.abs() > most {

@@ -287,6 +287,8 @@ pub(crate) struct Surroundings<'a> {
     pub tick: u64,
     pub world: &'a mut World,
     pub truth: &'a Truth,
+    /// Where the chemical sensor's intake is, and its height above the bottom, m.
+    pub intake: (Point, f64),
     /// The vehicle's velocity over ground, m/s.
     pub ground_velocity: Vector,
     /// What a fault adds to the flow, m/s toward.

@@ -98,7 +98,7 @@ impl ChemicalSensor {
 impl Instrument for ChemicalSensor {
     fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
         let tick = around.tick;
-        let now = self.intake(around.truth.position, around.truth.heading, around.truth.depth, around.world);
+        let now = around.intake;
         let before = self.before.replace(now).unwrap_or(now);
         while let Some((sample, time)) = self.due(tick) {
             // How long before this tick the sample was taken, in ticks.

@@ -12,6 +12,12 @@ pub struct Diffusion {
     rises: bool,
 }
 
+/// A filament's draws are its own, whatever else is alive.
+#[inline]
+fn index(filament: &Filament, step: u64) -> u64 {
+    u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF)
+}
+
 /// Until a filament has this age when a stride begins, s, its draws up and down are Gaussian to the last: where the plume rises to a vehicle
 /// first is told by the few that rise fastest, and they have had few draws.
 const EARLY_S: f64 = 512.0;
@@ -29,12 +35,28 @@ impl Diffusion {
     /// The draws of a filament for a step of the plume, along the flow, across it and up, where it has an age when the stride begins, s.
     #[inline]
     pub fn draw(&self, filament: &Filament, step: u64, age: f64) -> [f64; 3] {
-        // They are its own, whatever else is alive.
-        let index = u64::from(filament.number) << 32 | (step & 0xFFFF_FFFF);
-        let mut draws = self.noise.nearly_gaussian_triple(index);
-        if self.rises && age < EARLY_S {
-            draws[2] = self.early.gaussian(index);
+        let mut draws = self.quick(filament, step);
+        if self.is_early(age) {
+            draws[2] = self.early_rise(filament, step);
         }
         draws
+    }
+
+    /// Whether the draws up and down are Gaussian to the last at an age, s.
+    #[inline]
+    pub fn is_early(&self, age: f64) -> bool {
+        self.rises && age < EARLY_S
+    }
+
+    /// The draws where those up and down are like the others.
+    #[inline]
+    pub fn quick(&self, filament: &Filament, step: u64) -> [f64; 3] {
+        self.noise.nearly_gaussian_triple(index(filament, step))
+    }
+
+    /// The draw up and down where it is Gaussian to the last.
+    #[inline]
+    pub fn early_rise(&self, filament: &Filament, step: u64) -> f64 {
+        self.early.gaussian(index(filament, step))
     }
 }

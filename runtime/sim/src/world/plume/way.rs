@@ -4,6 +4,7 @@
 //! is that of the plume's step. So the water is the same wherever, and in whatever order, one looks.
 
 use crate::world::plume::block::Filament;
+use crate::world::plume::diffusion::Diffusion;
 use crate::world::plume::kernel::CUT_RADII;
 use crate::world::plume::{Origin, Plume, Steps};
 
@@ -118,48 +119,70 @@ impl Bridge {
     /// The same of one that is not far as a whole.
     #[inline(never)]
     fn part_of(&self, origins: &[Origin], way: &Way, step: u64, steps: u64, near: Option<Near>) -> Option<Way> {
-        let is_far = |way: &Way| near.is_some_and(|near| !way.reaches(near));
-        let (mut way, most) = (*way, way.straight.max(steps));
+        let (whole, mut way, most) = (way, *way, way.straight.max(steps));
+        let diffusion = &origins[way.filament.source as usize].diffusion;
         while way.end - way.begin > most {
-            self.halve(origins, &mut way, step);
+            let half = self.half(&way, step);
+            if let Some(halved) = &half.halved {
+                let [nx, ny, nz] = diffusion.quick(&way.filament, half.middle);
+                let f = &mut way.filament;
+                (f.x, f.velocity[0]) = halved.moved((f.x, f.velocity[0]), halved.spread * nx);
+                (f.y, f.velocity[1]) = halved.moved((f.y, f.velocity[1]), halved.spread * ny);
+                (f.z, f.velocity[2]) = halved.moved((f.z, f.velocity[2]), halved.rise * nz);
+            }
+            half.take(&mut way);
+            way.off = self.farthest_off(way.end - way.begin, way.straight);
             way = way.with_bounds();
-            if is_far(&way) {
+            if near.is_some_and(|near| !way.reaches(near)) {
                 return None;
             }
+        }
+        if diffusion.is_early(way.age) {
+            self.rise(diffusion, whole, &mut way, step, most);
         }
         Some(way)
     }
 
-    /// Takes the half of a way in which a step is.
+    /// The heights of a part that is near, where their draws are dear: most are far, whatever their height.
+    fn rise(&self, diffusion: &Diffusion, whole: &Way, part: &mut Way, step: u64, most: u64) {
+        let mut way = *whole;
+        while way.end - way.begin > most {
+            let half = self.half(&way, step);
+            if let Some(halved) = &half.halved {
+                let off = halved.rise * diffusion.early_rise(&way.filament, half.middle);
+                let f = &mut way.filament;
+                (f.z, f.velocity[2]) = halved.moved((f.z, f.velocity[2]), off);
+            }
+            half.take(&mut way);
+        }
+        (part.filament.z, part.filament.velocity[2]) = (way.filament.z, way.filament.velocity[2]);
+    }
+
+    /// The half of a way in which a step is.
     #[inline]
-    fn halve(&self, origins: &[Origin], way: &mut Way, step: u64) {
+    fn half(&self, way: &Way, step: u64) -> PartOfWay {
         let middle = way.begin.midpoint(way.end);
         let depth = (way.end - middle).ilog2() as usize;
         let Half { time: after, per_time, mut spread, mut rise, .. } = self.halves[depth.min(DEEPEST - 1)];
-        let (before, mut per_before) = (way.time - after, per_time);
-        way.off = self.farthest_off(middle - way.begin, way.straight);
+        let before = way.time - after;
+        let mut per_before = per_time;
+        let is_first = step < middle;
         if before < 0.999 * after {
             // Released in the second half.
             if before <= 0.0 {
-                way.begin = middle;
-                return;
+                return PartOfWay { middle, is_first: false, time: way.time, halved: None };
             }
             let variance = 2.0 * before * after / way.time;
             (spread, rise) = ((variance * self.diffusivity.0).sqrt(), (variance * self.diffusivity.1).sqrt());
             per_before = 1.0 / before;
         }
-        let f = &mut way.filament;
-        let [nx, ny, nz] = origins[f.source as usize].diffusion.draw(f, middle, way.age);
-        let off = [spread * nx, spread * ny, rise * nz];
-        if step < middle {
-            let at = f.at(after);
-            [f.x, f.y, f.z] = [at[0] + off[0], at[1] + off[1], at[2] + off[2]];
-            (0..3).for_each(|i| f.velocity[i] += off[i] * per_before);
-            (way.end, way.time) = (middle, before);
-        } else {
-            (0..3).for_each(|i| f.velocity[i] -= off[i] * per_time);
-            (way.begin, way.time) = (middle, after);
-        }
+        let halved = Halved {
+            after: is_first.then_some(after),
+            spread,
+            rise,
+            per_time: if is_first { per_before } else { per_time },
+        };
+        PartOfWay { middle, is_first, time: if is_first { before } else { after }, halved: Some(halved) }
     }
 
     /// How far off its line in so many steps a filament can be along an axis, m, that goes straight on in parts of them.
@@ -167,6 +190,50 @@ impl Bridge {
         // The halves are off by a geometric series.
         let root = |steps: u64| self.halves[(steps.max(1).ilog2() as usize).min(DEEPEST - 1)].off;
         (root(steps) - root(straight)).max(0.0)
+    }
+}
+
+/// The half of a way in which a step is: the first or the second, and how long it lasts, s.
+struct PartOfWay {
+    middle: u64,
+    is_first: bool,
+    time: f64,
+    /// None of a filament that is released in the second half, of which the way is the whole.
+    halved: Option<Halved>,
+}
+
+/// How the ends of a way are moved to those of its half.
+struct Halved {
+    /// Of the first half: how long the second lasts, s.
+    after: Option<f64>,
+    /// The deviations of the place half-way, horizontally and up and down, m.
+    spread: f64,
+    rise: f64,
+    /// The inverse of the half's time, 1/s.
+    per_time: f64,
+}
+
+impl Halved {
+    /// A coordinate at the end of a half, and its velocity, of those of the whole, where half-way it is so far off the line, m.
+    #[inline]
+    fn moved(&self, (end, velocity): (f64, f64), off: f64) -> (f64, f64) {
+        match self.after {
+            Some(after) => (end - after * velocity + off, velocity + off * self.per_time),
+            None => (end, velocity - off * self.per_time),
+        }
+    }
+}
+
+impl PartOfWay {
+    /// Makes of a way its half, but for the filament's place.
+    #[inline]
+    fn take(&self, way: &mut Way) {
+        if self.is_first {
+            way.end = self.middle;
+        } else {
+            way.begin = self.middle;
+        }
+        way.time = self.time;
     }
 }
 
