@@ -273,8 +273,6 @@ impl<'a> Lowering<'a> {
             Decl::Area(var, e) => {
                 let to = self.frame.vars[*var];
                 let name = self.vars[*var].name.clone();
-                // Code is made twice: the first time only to learn how many words it takes.
-                self.program.mission.areas.retain(|area| area.name != name);
                 self.program.mission.areas.push(NamedArea { name, at: to });
                 self.scratch(|l| l.expr_into(e, to));
             }

@@ -357,6 +357,7 @@ impl<'a> Lowering<'a> {
             statements: p.statements.len(),
             texts: p.texts.len(),
             memories: p.memories.len(),
+            areas: p.mission.areas.len(),
             findings: self.findings.len(),
             typed: self.claims.typed.len(),
             emitted: self.emitted,
@@ -373,9 +374,14 @@ impl<'a> Lowering<'a> {
         p.recordings.truncate(mark.recordings);
         p.reports.truncate(mark.reports);
         p.statements.truncate(mark.statements);
-        p.texts.truncate(mark.texts);
-        self.texts.retain(|_, place| (*place as usize) < mark.texts);
+        // Each by itself: to look through all would take the more the more activities a mission has.
+        for text in p.texts.drain(mark.texts..) {
+            if let [TextPart::Literal(text)] = text.parts.as_slice() {
+                self.texts.remove(text);
+            }
+        }
         p.memories.truncate(mark.memories);
+        p.mission.areas.truncate(mark.areas);
         self.findings.truncate(mark.findings);
         self.claims.typed.truncate(mark.typed);
         self.emitted = mark.emitted;
@@ -471,6 +477,7 @@ struct Mark {
     statements: usize,
     texts: usize,
     memories: usize,
+    areas: usize,
     findings: usize,
     typed: usize,
     emitted: u64,
