@@ -13,15 +13,14 @@ pub fn mentions_done(e: &Expr) -> bool {
 pub fn same_condition(a: &Expr, b: &Expr) -> bool {
     // `b or c` is enough for what each of the two is enough for.
     if is(b, Builtin::Or) {
-        return row(b, Builtin::Or).into_iter().all(|b| same_condition(a, b));
+        return !any_of(b, Builtin::Or, &mut |b| !same_condition(a, b));
     }
     if is(a, Builtin::And) {
-        return row(a, Builtin::And).into_iter().all(|a| same_condition(a, b));
+        return !any_of(a, Builtin::And, &mut |a| !same_condition(a, b));
     }
     // `a or c` holds whenever `a` does, `b and c` only when `b` does.
     if is(a, Builtin::Or) || is(b, Builtin::And) {
-        let (ors, ands) = (row(a, Builtin::Or), row(b, Builtin::And));
-        return ors.iter().any(|a| ands.iter().any(|b| same_condition(a, b)));
+        return any_of(a, Builtin::Or, &mut |a| any_of(b, Builtin::And, &mut |b| same_condition(a, b)));
     }
     match (&a.kind, &b.kind) {
         // What does not hold: the other way about.
@@ -60,11 +59,11 @@ fn is(e: &Expr, joint: Builtin) -> bool {
     matches!(&e.kind, ExprKind::Do(op, _) if *op == joint)
 }
 
-/// What `and` or `or` joins, however often.
-fn row(e: &Expr, joint: Builtin) -> Vec<&Expr> {
+/// Whether something is so of any of what `and` or `or` joins, however often. Nothing is kept of it: each two rules of a behavior are compared.
+fn any_of(e: &Expr, joint: Builtin, is_so: &mut dyn FnMut(&Expr) -> bool) -> bool {
     match &e.kind {
-        ExprKind::Do(op, operands) if *op == joint => operands.iter().flat_map(|e| row(e, joint)).collect(),
-        _ => vec![e],
+        ExprKind::Do(op, operands) if *op == joint => operands.iter().any(|e| any_of(e, joint, is_so)),
+        _ => is_so(e),
     }
 }
 
