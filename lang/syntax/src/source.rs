@@ -1,7 +1,7 @@
 //! Source files and places in them.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A source larger than this, in bytes, is refused.
 pub const SOURCE_BYTES_MAX: usize = 8 * 1024 * 1024;
@@ -59,6 +59,8 @@ pub struct Sources {
     listed: Vec<FileId>,
     /// Where the lines of each file begin: a place is looked up, for there may be as many as there are lines.
     lines: Vec<Arc<[u32]>>,
+    /// The digest of each file, once somebody has asked for it.
+    digests: Vec<OnceLock<u64>>,
 }
 
 impl Sources {
@@ -74,6 +76,7 @@ impl Sources {
         let ends = source.text.match_indices('\n').map(|(at, _)| at as u32 + 1);
         self.lines.push(std::iter::once(0).chain(ends).collect());
         self.files.push(source);
+        self.digests.push(OnceLock::new());
         FileId((self.files.len() - 1) as u32)
     }
 
@@ -85,6 +88,16 @@ impl Sources {
     /// The file of an id.
     pub fn get(&self, id: FileId) -> &Source {
         &self.files[id.0 as usize]
+    }
+
+    /// A digest of a file's text, which is made once: each of the tests of a script asks for it. Who asks says how, and always the same.
+    pub fn digest(&self, id: FileId, of: impl FnOnce(&str) -> u64) -> u64 {
+        *self.digests[id.0 as usize].get_or_init(|| of(&self.get(id).text))
+    }
+
+    /// All files of the program, by their ids.
+    pub fn ids(&self) -> impl Iterator<Item = FileId> {
+        self.listed.iter().copied()
     }
 
     /// All files of the program, in the order in which they were taken into it.

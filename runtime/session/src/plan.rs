@@ -7,7 +7,7 @@ use crate::wanted::Wanted;
 use albacore_geometry::{Area, Geodetic, Point, TangentFrame};
 use albacore_lang::Script;
 use albacore_lang::diagnostic::{Diagnostic, Severity};
-use albacore_lang::source::{Source, Sources};
+use albacore_lang::source::{FileId, Sources};
 
 use albacore_link::Dialect;
 use albacore_machine::Chart;
@@ -237,7 +237,7 @@ impl Plan {
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
         let (places, warnings) = (lowered.places, Vec::new());
-        let scenario_script = Some(digest(script.sources.get(lowered.span.file)));
+        let scenario_script = Some(digest(script, lowered.span.file));
         Ok(Plan {
             program,
             scenario,
@@ -309,11 +309,14 @@ fn survey(world: &Scenario) -> Option<Arc<Bottom>> {
 
 /// What a script was made from.
 fn sources(script: &Script) -> Vec<SourceDigest> {
-    script.sources.iter().map(digest).collect()
+    script.sources.ids().map(|file| digest(script, file)).collect()
 }
 
-fn digest(source: &Source) -> SourceDigest {
-    let mut digest = Digest::new();
-    digest.text(&source.text);
-    SourceDigest { name: source.name.to_string(), digest: digest.value() }
+fn digest(script: &Script, file: FileId) -> SourceDigest {
+    let of_text = |text: &str| {
+        let mut digest = Digest::new();
+        digest.text(text);
+        digest.value()
+    };
+    SourceDigest { name: script.sources.get(file).name.to_string(), digest: script.sources.digest(file, of_text) }
 }
