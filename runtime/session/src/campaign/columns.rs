@@ -2,11 +2,11 @@
 
 use super::Case;
 use super::cell::plain;
-use super::report_columns::{ReportColumns, parts};
+use super::report_columns::{ReportColumns, by_names, parts};
 use crate::recorders::account::behavior_names;
-use crate::summary::Summary;
+use crate::summary::{BehaviorSummary, Report, Summary};
 use albacore_program::{Program, number};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The columns of every table. What was declared, when and how far off, is of the first report; `reports` counts all.
 const FIXED: [&str; 19] = [
@@ -80,13 +80,13 @@ impl Columns {
         let mut names: Vec<String> = before.map(|name| unused(&mut taken, &name)).collect();
         let before = names.len();
         names.extend(FIXED.map(str::to_string));
+        let mut known: BTreeMap<String, usize> = BTreeMap::new();
         let cases = programs.iter().map(|program| {
             // Of its own columns no two have one name.
             let (case, own) = CaseColumns::new(program, reports_of_each, names[..before + FIXED.len()].iter().cloned());
             let place = |name: String| {
-                let known = names[before + FIXED.len()..].iter().position(|known| *known == name);
-                known.map(|known| before + FIXED.len() + known).unwrap_or_else(|| {
-                    names.push(name);
+                *known.entry(name).or_insert_with_key(|name| {
+                    names.push(name.clone());
                     names.len() - 1
                 })
             };
@@ -178,16 +178,11 @@ impl CaseColumns {
     /// The columns of a program's runs, and their names, which are none of those that are taken.
     fn new(program: &Program, reports_of_each: usize, taken: impl Iterator<Item = String>) -> (Self, Vec<String>) {
         let mut taken: BTreeSet<String> = taken.collect();
-        let mut reported: Vec<&str> = Vec::new();
-        for site in &program.reports {
-            if !reported.contains(&site.name.as_str()) {
-                reported.push(&site.name);
-            }
-        }
+        let reported = by_names(&program.reports);
         let has_one_name = reported.len() == 1;
         let (mut names, mut reports) = (Vec::new(), Vec::new());
-        for name in reported {
-            let parts = parts(&program.reports, name);
+        for (name, sites) in reported {
+            let parts = parts(&sites);
             for nth in 0..reports_of_each {
                 let is_timed = nth > 0 || !has_one_name;
                 let columns = ReportColumns { name: name.to_string(), nth, is_timed, parts: parts.clone() };
@@ -206,8 +201,11 @@ impl CaseColumns {
     /// The cells of a run that is over, in the order of the columns.
     fn cells(&self, run: &Summary) -> Vec<String> {
         let mut cells = Vec::new();
+        let reports: BTreeMap<(&str, u64), &Report> =
+            run.reports.iter().map(|r| ((r.name.as_str(), r.nth), r)).collect();
+        let behaviors: BTreeMap<&str, &BehaviorSummary> = run.behaviors.iter().map(|b| (b.name.as_str(), b)).collect();
         for columns in &self.reports {
-            let report = run.reports.iter().find(|r| r.name == columns.name && r.nth == columns.nth as u64);
+            let report = reports.get(&(columns.name.as_str(), columns.nth as u64)).copied();
             if columns.is_timed {
                 cells.push(seconds(report.map(|r| r.t_s)));
                 cells.push(metres(report.and_then(|r| r.error_m)));
@@ -215,7 +213,7 @@ impl CaseColumns {
             cells.extend(columns.parts.iter().map(|part| report.map(|report| part.cell(report)).unwrap_or_default()));
         }
         for behavior in &self.behaviors {
-            let spent = run.behaviors.iter().find(|spent| spent.name == *behavior);
+            let spent = behaviors.get(behavior.as_str());
             cells.push(seconds(Some(spent.map_or(0.0, |spent| spent.time_s))));
             cells.push(metres(Some(spent.map_or(0.0, |spent| spent.path_length_m))));
         }

@@ -6,6 +6,8 @@ use crate::reported;
 use crate::summary::Report;
 use albacore_program::{ReportSite, Shape, number};
 use serde_json::Value;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// The columns of one report of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +23,7 @@ pub(super) struct ReportColumns {
 /// A part of a report that has a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Part {
-    /// The statements whose reports have it, by their places among the program's.
+    /// The statements whose reports have it, by their places among the program's, in order.
     sites: Vec<u32>,
     label: String,
     /// The fields of records that lead to it.
@@ -30,6 +32,9 @@ pub(super) struct Part {
     /// Which coordinate it is of a place or a vector.
     coordinate: Option<&'static str>,
 }
+
+/// Label, fields, unit and coordinate of a part.
+type Called = (String, Vec<String>, Option<String>, Option<&'static str>);
 
 impl ReportColumns {
     /// Their names, not all of which need be different.
@@ -47,17 +52,38 @@ impl ReportColumns {
     }
 }
 
+/// Statements that report under one name, each with its place among the program's.
+pub(super) type Sites<'a> = Vec<(u32, &'a ReportSite)>;
+
+/// The names under which anything is reported, in the order of the program, each with the statements that do.
+pub(super) fn by_names(sites: &[ReportSite]) -> Vec<(&str, Sites<'_>)> {
+    let mut names: Vec<(&str, Sites)> = Vec::new();
+    let mut known: BTreeMap<&str, usize> = BTreeMap::new();
+    for (at, site) in (0..).zip(sites) {
+        let name = *known.entry(&site.name).or_insert_with(|| {
+            names.push((&site.name, Vec::new()));
+            names.len() - 1
+        });
+        names[name].1.push((at, site));
+    }
+    names
+}
+
 /// The parts of all that is reported under a name.
-pub(super) fn parts(sites: &[ReportSite], name: &str) -> Vec<Part> {
+pub(super) fn parts(sites: &Sites) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
-    for (site, fields) in (0..).zip(sites).filter(|(_, site)| site.name == name) {
+    let mut known: BTreeMap<Called, usize> = BTreeMap::new();
+    for &(site, fields) in sites {
         for (label, value) in &fields.fields {
             let whole =
                 Part { sites: vec![site], label: label.clone(), fields: Vec::new(), unit: None, coordinate: None };
             for part in whole.of(&value.shape) {
-                match parts.iter_mut().find(|known| known.is_called_like(&part)) {
-                    Some(known) => known.sites.push(site),
-                    None => parts.push(part),
+                match known.entry(part.called()) {
+                    Entry::Occupied(known) => parts[*known.get()].sites.push(site),
+                    Entry::Vacant(new) => {
+                        new.insert(parts.len());
+                        parts.push(part);
+                    }
                 }
             }
         }
@@ -87,9 +113,9 @@ impl Part {
         }
     }
 
-    fn is_called_like(&self, other: &Part) -> bool {
-        (&self.label, &self.fields, &self.unit, self.coordinate)
-            == (&other.label, &other.fields, &other.unit, other.coordinate)
+    /// What two parts have in common that share a column.
+    fn called(&self) -> Called {
+        (self.label.clone(), self.fields.clone(), self.unit.clone(), self.coordinate)
     }
 
     /// What it is called behind the name of its report: of a value that is one number without a unit there is nothing to say.
@@ -104,7 +130,7 @@ impl Part {
 
     /// Its cell in the row of a run; empty where the report has no such part, or holds nothing there.
     pub fn cell(&self, report: &Report) -> String {
-        if !self.sites.contains(&report.site) {
+        if self.sites.binary_search(&report.site).is_err() {
             return String::new();
         }
         let value = if self.label.is_empty() { Some(&report.value) } else { report.labelled.get(&self.label) };
@@ -135,7 +161,7 @@ fn nine_digits(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{ReportColumns, nine_digits, parts};
+    use super::{ReportColumns, by_names, nine_digits, parts};
     use crate::summary::Report;
     use albacore_program::{Display, ReportSite, Shape, Valued};
     use serde_json::json;
@@ -159,7 +185,8 @@ mod tests {
             ("seen", record),
             ("outline", Shape::Area(16)),
         ];
-        let parts = parts(&[site(&fields), site(&[("", quantity("m"))]), site(&[("number", Shape::Point)])], "visit");
+        let sites = [site(&fields), site(&[("", quantity("m"))]), site(&[("number", Shape::Point)])];
+        let parts = parts(&by_names(&sites)[0].1);
         let columns = ReportColumns { name: "visit".into(), nth: 1, is_timed: true, parts };
         let names = [
             "visit_2_t_s",

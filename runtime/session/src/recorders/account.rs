@@ -7,17 +7,15 @@ use albacore_machine::Event;
 use albacore_program::{Activity, ActivityId, ActivityKind, Cause, Program, Shape, number};
 use albacore_trace::{Active, TickRecord};
 use albacore_vehicle::seconds;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The names under which an account is kept: of behaviors, strategies and the recovery, each once, in the order of the program.
 pub(crate) fn behavior_names(program: &Program) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for activity in program.activities.iter().filter(|activity| is_behavior(activity)) {
-        if !names.contains(&activity.name.as_str()) {
-            names.push(&activity.name);
-        }
-    }
-    names
+    let mut known = BTreeSet::new();
+    let names =
+        program.activities.iter().filter(|activity| is_behavior(activity)).map(|activity| activity.name.as_str());
+    names.filter(|name| known.insert(*name)).collect()
 }
 
 fn is_behavior(activity: &Activity) -> bool {
@@ -53,7 +51,8 @@ pub(crate) struct Account {
 impl Account {
     pub fn new(program: &Arc<Program>) -> Self {
         let names = behavior_names(program);
-        let place = |activity: &Activity| names.iter().position(|name| is_behavior(activity) && *name == activity.name);
+        let known: BTreeMap<&str, usize> = names.iter().copied().zip(0..).collect();
+        let place = |activity: &Activity| known.get(activity.name.as_str()).copied().filter(|_| is_behavior(activity));
         Account {
             places: program.activities.iter().map(place).collect(),
             spent: vec![Spent::default(); names.len()],
