@@ -3,6 +3,7 @@
 mod cases;
 mod compare;
 mod digested_file;
+mod line_reader;
 mod merge;
 mod neighbours;
 mod provenance;

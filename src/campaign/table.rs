@@ -5,6 +5,7 @@
 //! the interruption, and whatever the disk did.
 
 use super::digested_file::DigestedFile;
+use super::line_reader::LineReader;
 use super::neighbours::{
     MADE_FROM, alone, alone_of_name, belongs, is_there, left_by, lock, neighbours, no_stray_link, same, silent, write,
 };
@@ -15,6 +16,7 @@ use crate::disk;
 use crate::made::is_as_summed;
 use albacore_session::campaign::{Columns, Row, Tallies, plain};
 use albacore_session::read_file;
+use csv::StringRecord;
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read};
@@ -203,9 +205,9 @@ impl Table {
         let mut changed = kept.changed;
         let (are_written, is_headed) = (changed.is_empty(), !kept.lines.is_empty());
         // What the first line was is known without it.
-        let mut lines = vec![Some(head.clone())];
+        let (mut lines, mut reader) = (vec![Some(head.clone())], LineReader::default());
         for (number, line) in kept.lines {
-            let at = if line == head { 0 } else { place(path, number, line, columns, rows)? };
+            let at = if line == head { 0 } else { place(path, number, reader.cells(line), columns, rows)? };
             lines.resize(lines.len().max(at + 1), None);
             lines[at] = Some(line.to_vec());
             if are_written && number != at + 1 {
@@ -401,11 +403,17 @@ impl Table {
 }
 
 /// Where the row of a known line stands among the lines: an error if it is none of these.
-fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, rows: Rows) -> Result<usize, TableError> {
+fn place(
+    path: &Path,
+    number: usize,
+    cells: Option<&StringRecord>,
+    columns: &Columns,
+    rows: Rows,
+) -> Result<usize, TableError> {
     let asked = |message: String, help: String| {
         Err(TableError::Asked(message, format!("{help}, or choose another file with `--out`")))
     };
-    let Some((seed, case)) = run_of(line, columns) else {
+    let Some((seed, case)) = run_of(cells, columns) else {
         let message = match number {
             1 => format!("`{}` has other columns than this campaign", path.display()),
             _ => format!("`{}`, line {number}: this is no row of this campaign", path.display()),
@@ -423,7 +431,7 @@ fn place(path: &Path, number: usize, line: &[u8], columns: &Columns, rows: Rows)
 
 /// Whether the end of a table may be a row, or the beginning of that.
 fn may_be_row(tail: &[u8], row: u64, columns: &Columns, rows: Rows) -> bool {
-    !tail.contains(&b'\n') || run_of(tail, columns) == Some(rows.order().run(row))
+    !tail.contains(&b'\n') || run_of(LineReader::default().cells(tail), columns) == Some(rows.order().run(row))
 }
 
 /// Keeps what was found of a table and of what lies beside it, under the first name that is free: who wrote into it may want that back.
@@ -449,10 +457,8 @@ fn keep(table: &Path, found: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, TableErro
 }
 
 /// The seed and the case of a row that has all columns.
-fn run_of(line: &[u8], columns: &Columns) -> Option<(u64, usize)> {
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);
-    let row = reader.records().next()?.ok()?;
-    columns.run(&row.iter().collect::<Vec<_>>())
+fn run_of(cells: Option<&StringRecord>, columns: &Columns) -> Option<(u64, usize)> {
+    columns.run(&cells?.iter().collect::<Vec<_>>())
 }
 
 /// A row as it stands in the file. Names and reasons may have line ends in them; a row is one line.

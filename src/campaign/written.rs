@@ -1,5 +1,6 @@
 //! A table that was written, with what it was made from: read whole, and held against its checksums.
 
+use super::line_reader::LineReader;
 use super::provenance::{self, Provenance, Unread};
 use super::sums;
 use crate::made::is_as_summed;
@@ -36,14 +37,13 @@ pub struct WrittenRow {
 pub type Unusable = (String, String);
 
 /// Finds the seed and the case in a row of a table with this first line: one that has no column for the case is of one.
-fn runs(head: &[u8], cases: usize) -> impl Fn(&[u8]) -> Option<(u64, usize)> + use<> {
-    let cells =
-        |line: &[u8]| csv::ReaderBuilder::new().has_headers(false).from_reader(line).into_records().next()?.ok();
-    let names = cells(head);
+fn runs(head: &[u8], cases: usize) -> impl FnMut(&[u8]) -> Option<(u64, usize)> + use<> {
+    let mut reader = LineReader::default();
+    let names = reader.cells(head).cloned();
     let column = move |name: &str| names.as_ref()?.iter().position(|other| other == name);
     let (seed, case) = (column("seed"), column("case"));
     move |line| {
-        let cells = cells(line)?;
+        let cells = reader.cells(line)?;
         let case = if cases == 1 { 1 } else { cells.get(case?)?.parse::<usize>().ok()? };
         Some((cells.get(seed?)?.parse().ok()?, case.checked_sub(1)?))
     }
@@ -87,7 +87,8 @@ impl WrittenTable {
         if cases == 0 {
             return Err((format!("`{shown}.origin` tells of no case"), again.to_string()));
         }
-        let (order, run_of) = (RowOrder { first_seed: origin.first_seed(), cases: cases as u64 }, runs(&head, cases));
+        let order = RowOrder { first_seed: origin.first_seed(), cases: cases as u64 };
+        let mut run_of = runs(&head, cases);
         let mut rows = Vec::new();
         for (number, line) in (0..).zip(lines) {
             let (seed, case) = order.run(number);
