@@ -1,7 +1,7 @@
 //! Labels on the chart, each put where it covers least.
 
 use super::{frame::Frame, svg, svg::Svg};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The size of labels, in pixels.
 const SIZE: f64 = 13.0;
@@ -19,10 +19,41 @@ const CELL: f64 = 6.0;
 /// A rectangle on the page: left, top, right, bottom.
 type Region = (f64, f64, f64, f64);
 
+/// Labels and marks are found by squares of so many pixels: a mission may have thousands of areas.
+const SQUARE: f64 = 60.0;
+
 /// What is on the chart already, so that labels keep off it.
 pub struct Labels {
-    taken: Vec<Region>,
-    inked: Vec<(f64, f64)>,
+    taken: Taken,
+    inked: BTreeSet<(i32, i32)>,
+}
+
+/// Labels and marks, each in all squares that it touches.
+#[derive(Default)]
+struct Taken(BTreeMap<(i32, i32), Vec<Region>>);
+
+impl Taken {
+    fn add(&mut self, region: Region) {
+        squares(region).for_each(|square| self.0.entry(square).or_default().push(region));
+    }
+
+    /// How many a region overlaps: each counts in the square where what they share begins.
+    fn overlaps(&self, r: Region) -> usize {
+        let overlaps = |t: &Region| r.0 < t.2 && t.0 < r.2 && r.1 < t.3 && t.1 < r.3;
+        let begins = |t: &Region| square(r.0.max(t.0), r.1.max(t.1));
+        let here =
+            |square| self.0.get(&square).into_iter().flatten().filter(move |t| overlaps(t) && begins(t) == square);
+        squares(r).map(|square| here(square).count()).sum()
+    }
+}
+
+fn square(x: f64, y: f64) -> (i32, i32) {
+    ((x / SQUARE).floor() as i32, (y / SQUARE).floor() as i32)
+}
+
+fn squares(r: Region) -> impl Iterator<Item = (i32, i32)> {
+    let ((left, top), (right, bottom)) = (square(r.0, r.1), square(r.2, r.3));
+    (left..=right).flat_map(move |x| (top..=bottom).map(move |y| (x, y)))
 }
 
 impl Labels {
@@ -38,9 +69,8 @@ impl Labels {
                 ((x / CELL) as i32, (y / CELL) as i32)
             }));
         }
-        let inked =
-            inked.into_iter().map(|(x, y)| ((f64::from(x) + 0.5) * CELL, (f64::from(y) + 0.5) * CELL)).collect();
-        let taken = marks.iter().map(|((x, y), r)| (x - r, y - r, x + r, y + r)).collect();
+        let mut taken = Taken::default();
+        marks.iter().for_each(|((x, y), r)| taken.add((x - r, y - r, x + r, y + r)));
         Labels { taken, inked }
     }
 
@@ -82,15 +112,38 @@ impl Labels {
              stroke-linejoin=\"round\" paint-order=\"stroke\""
         );
         svg.text(at, &attributes, &text);
-        self.taken.push(region);
+        self.taken.add(region);
     }
 
     /// What a label would cover: another one or a mark is the worst but for leaving the chart; a line is bad.
     fn cost(&self, frame: &Frame, r: Region) -> f64 {
         let inside = frame.shows((r.0 - 3.0, r.1 - 3.0)) && frame.shows((r.2 + 3.0, r.3 + 3.0));
-        let overlaps = self.taken.iter().filter(|t| r.0 < t.2 && t.0 < r.2 && r.1 < t.3 && t.1 < r.3).count();
-        let within = |x: f64, y: f64| (r.0..=r.2).contains(&x) && (r.1..=r.3).contains(&y);
-        let inked = self.inked.iter().filter(|(x, y)| within(*x, *y)).count();
+        let overlaps = self.taken.overlaps(r);
+        let cell = |at: f64| (at / CELL).floor() as i32;
+        let middle = |cell: i32| (f64::from(cell) + 0.5) * CELL;
+        let column = |x| self.inked.range((x, cell(r.1))..=(x, cell(r.3)));
+        let columns = (cell(r.0)..=cell(r.2)).filter(|x| (r.0..=r.2).contains(&middle(*x)));
+        let inked = columns.flat_map(column).filter(|(_, y)| (r.1..=r.3).contains(&middle(*y))).count();
         f64::from(!inside) * 1000.0 + overlaps as f64 * 200.0 + inked as f64 * 3.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Region, SQUARE, Taken};
+
+    #[test]
+    fn each_that_is_overlapped_counts_once() {
+        // Regions that lie in one square, across several, side by side, and on the edges of squares.
+        let at = |i: usize| (i * 37 % 400) as f64 - 100.0;
+        let size = |i: usize| [0.0, 5.0, SQUARE, 130.0][i % 4];
+        let region = |i: usize| (at(i), at(i * 3 + 1), at(i) + size(i), at(i * 3 + 1) + size(i / 4));
+        let regions: Vec<Region> = (0..300).map(region).collect();
+        let mut taken = Taken::default();
+        regions.iter().for_each(|region| taken.add(*region));
+        for r in &regions {
+            let one_by_one = regions.iter().filter(|t| r.0 < t.2 && t.0 < r.2 && r.1 < t.3 && t.1 < r.3).count();
+            assert_eq!(taken.overlaps(*r), one_by_one, "{r:?}");
+        }
     }
 }
