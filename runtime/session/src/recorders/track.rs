@@ -7,7 +7,7 @@ use albacore_machine::Event;
 use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Measurement, measurements};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Ticks between the points of the track.
@@ -27,6 +27,8 @@ pub(crate) struct Track {
     pub points: Vec<(Point, u16)>,
     /// The names of the behaviors.
     pub behaviors: Vec<String>,
+    /// Where each stands among them.
+    places: BTreeMap<String, u16>,
     /// Where the rounds of loops began that walk something, such as `row 7`.
     pub rounds: Vec<(String, Point)>,
     /// Where something was detected.
@@ -49,6 +51,7 @@ impl Track {
             has_plume: plan.scenario.has_plume(),
             points: Vec::new(),
             behaviors: Vec::new(),
+            places: BTreeMap::new(),
             rounds: Vec::new(),
             detections: Vec::new(),
         }
@@ -77,11 +80,13 @@ impl Track {
     fn index_of(&mut self, behavior: ActivityId) -> u16 {
         // A journal may be of a script that has changed since.
         let name = self.program.activities.get(behavior as usize).map_or("?", |activity| &activity.name);
-        let known = self.behaviors.iter().position(|known| known == name);
-        known.unwrap_or_else(|| {
-            self.behaviors.push(name.to_string());
-            self.behaviors.len() - 1
-        }) as u16
+        if let Some(known) = self.places.get(name) {
+            return *known;
+        }
+        let place = self.behaviors.len() as u16;
+        self.behaviors.push(name.to_string());
+        self.places.insert(name.to_string(), place);
+        place
     }
 }
 
