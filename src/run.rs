@@ -108,7 +108,9 @@ impl Run {
             Ok(kept) => kept,
             Err(exit) => return exit,
         };
-        let journal = kept.journal().map(|file| (Box::new(Synced::new(file, 0)) as Sink, self.changes()));
+        // On a link each tick is in the file at once; a simulated run can be had again.
+        let sink = if speaker.is_some() { Synced::new } else { Synced::gathering };
+        let journal = kept.journal().map(|file| (Box::new(sink(file, 0)) as Sink, self.changes()));
         if let Some(speaker) = speaker {
             let (json, doing) = (self.json, plan.program.mission.name.clone());
             speaker.shows(move || bar(json, &doing));

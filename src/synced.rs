@@ -11,9 +11,15 @@ const STEP: Duration = Duration::from_secs(1);
 /// What became of a file that is not as it was left.
 pub const WRITTEN_INTO: &str = "another program has written into it";
 
-/// Writes at once, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
+/// What is gathered is written when it comes to so much, bytes, or after so long.
+const PIECE: usize = 64 << 10;
+const GATHERED: Duration = Duration::from_millis(100);
+
+/// Writes at once or in pieces, and lets the disk have it in steps. Who writes waits for the disk: no control loop should.
 pub struct Synced {
     file: File,
+    /// What is gathered, where it is, and when it is to be written.
+    gathered: Option<(Vec<u8>, Duration)>,
     /// So long it is where nobody else writes into it.
     bytes: u64,
     due: Duration,
@@ -24,7 +30,15 @@ pub struct Synced {
 impl Synced {
     /// Of an open file that holds so many bytes.
     pub fn new(file: File, bytes: u64) -> Self {
-        Synced { file, bytes, due: now() + STEP, is_new: false }
+        Synced { file, gathered: None, bytes, due: now() + STEP, is_new: false }
+    }
+
+    /// The same, of what comes so fast in small parts that to write each would cost more than to make it. What is gathered is lost if
+    /// the program is killed.
+    pub fn gathering(file: File, bytes: u64) -> Self {
+        let mut gathering = Synced::new(file, bytes);
+        gathering.gathered = Some((Vec::with_capacity(PIECE), now() + GATHERED));
+        gathering
     }
 
     /// Whether it is as long as it was left.
@@ -66,8 +80,8 @@ impl Synced {
     }
 }
 
-impl Write for Synced {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+impl Synced {
+    fn write_at_once(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if !self.is_as_left()? {
             return Err(io::Error::other(WRITTEN_INTO));
         }
@@ -78,7 +92,38 @@ impl Write for Synced {
         Ok(written)
     }
 
+    /// Writes what is gathered. Where that fails the rest is lost.
+    fn write_gathered(&mut self) -> io::Result<()> {
+        let Some((gathered, _)) = &mut self.gathered else { return Ok(()) };
+        let piece = std::mem::take(gathered);
+        let mut rest = piece.as_slice();
+        while !rest.is_empty() {
+            match self.write_at_once(rest) {
+                Ok(0) => return Err(ErrorKind::WriteZero.into()),
+                Ok(written) => rest = &rest[written..],
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        let mut room = piece;
+        room.clear();
+        self.gathered = Some((room, now() + GATHERED));
+        Ok(())
+    }
+}
+
+impl Write for Synced {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let Some((gathered, due)) = &mut self.gathered else { return self.write_at_once(bytes) };
+        gathered.extend(bytes);
+        if gathered.len() >= PIECE || now() >= *due {
+            self.write_gathered()?;
+        }
+        Ok(bytes.len())
+    }
+
     fn flush(&mut self) -> io::Result<()> {
+        self.write_gathered()?;
         self.sync()
     }
 }
@@ -86,7 +131,7 @@ impl Write for Synced {
 /// What was written last is on the disk too, when nobody has asked: nobody is left who could be told that it is not.
 impl Drop for Synced {
     fn drop(&mut self) {
-        let _ = self.sync();
+        let _ = self.flush();
     }
 }
 
@@ -104,5 +149,24 @@ mod tests {
         file.due = now();
         file.sync_when_due().unwrap();
         assert!(!file.is_new && file.due > now());
+    }
+
+    /// What is gathered is in the file once it comes to a piece, once its time is over, and when no more comes.
+    #[test]
+    fn what_is_gathered_is_written_in_pieces() {
+        let file = tempfile::tempfile().unwrap();
+        let length = || file.metadata().unwrap().len();
+        let mut gathering = Synced::gathering(file.try_clone().unwrap(), 0);
+        gathering.write_all(&[1; 10]).unwrap();
+        assert_eq!(length(), 0);
+        gathering.write_all(&[2; PIECE]).unwrap();
+        assert_eq!(length(), 10 + PIECE as u64);
+        gathering.write_all(&[3]).unwrap();
+        gathering.gathered.as_mut().unwrap().1 = now();
+        gathering.write_all(&[4]).unwrap();
+        assert_eq!(length(), 12 + PIECE as u64);
+        gathering.write_all(&[5]).unwrap();
+        drop(gathering);
+        assert_eq!(length(), 13 + PIECE as u64);
     }
 }

@@ -4,7 +4,7 @@ use super::{Gap, JOURNAL_VERSION, JournalHeader, MAGIC, PAYLOAD_MAX, WORD, Writt
 use crate::record::TickRecord;
 use std::io;
 
-/// Appends records to a sink, which should not hold bytes back: what it has taken is to survive the program's end.
+/// Appends records to a sink, which should not hold bytes back where nobody can have the run again: what it has taken is to survive the program's end.
 pub struct Writer<W> {
     sink: W,
     /// The bytes of the record being made, kept so that a tick allocates nothing.
