@@ -34,10 +34,10 @@ impl Synced {
     }
 
     /// The same, of what comes so fast in small parts that to write each would cost more than to make it. What is gathered is lost if
-    /// the program is killed.
+    /// the program is killed. The first part is written at once: it tells whether anything can be.
     pub fn gathering(file: File, bytes: u64) -> Self {
         let mut gathering = Synced::new(file, bytes);
-        gathering.gathered = Some((Vec::with_capacity(PIECE), now() + GATHERED));
+        gathering.gathered = Some((Vec::with_capacity(PIECE), now()));
         gathering
     }
 
@@ -155,18 +155,23 @@ mod tests {
     #[test]
     fn what_is_gathered_is_written_in_pieces() {
         let file = tempfile::tempfile().unwrap();
-        let length = || file.metadata().unwrap().len();
+        let length = || file.metadata().unwrap().len() as usize;
         let mut gathering = Synced::gathering(file.try_clone().unwrap(), 0);
-        gathering.write_all(&[1; 10]).unwrap();
-        assert_eq!(length(), 0);
-        gathering.write_all(&[2; PIECE]).unwrap();
-        assert_eq!(length(), 10 + PIECE as u64);
-        gathering.write_all(&[3]).unwrap();
-        gathering.gathered.as_mut().unwrap().1 = now();
+        gathering.write_all(&[1]).unwrap();
+        assert_eq!(length(), 1, "the first part at once");
+        let late = |gathering: &mut Synced, by: Duration| gathering.gathered.as_mut().unwrap().1 = now() + by;
+        late(&mut gathering, Duration::from_secs(600));
+        gathering.write_all(&[2; 10]).unwrap();
+        assert_eq!(length(), 1);
+        gathering.write_all(&[3; PIECE]).unwrap();
+        assert_eq!(length(), 11 + PIECE);
+        late(&mut gathering, Duration::ZERO);
         gathering.write_all(&[4]).unwrap();
-        assert_eq!(length(), 12 + PIECE as u64);
+        assert_eq!(length(), 12 + PIECE);
+        late(&mut gathering, Duration::from_secs(600));
         gathering.write_all(&[5]).unwrap();
+        assert_eq!(length(), 12 + PIECE);
         drop(gathering);
-        assert_eq!(length(), 13 + PIECE as u64);
+        assert_eq!(length(), 13 + PIECE);
     }
 }

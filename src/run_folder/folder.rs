@@ -108,7 +108,7 @@ impl Folder {
     pub fn whole_journal(&self) -> io::Result<Option<Vec<u8>>> {
         let mut bytes = Vec::new();
         File::open(self.path.join(JOURNAL))?.read_to_end(&mut bytes)?;
-        let is_whole = is_journal(bytes.as_slice())? && is_journal_as_left(bytes.as_slice())?;
+        let is_whole = is_journal(bytes.as_slice())? && is_journal_as_left(&bytes);
         Ok(is_whole.then_some(bytes))
     }
 
@@ -153,7 +153,7 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
     // A run that was killed, or goes on where no lock tells it, has told no digest of its journal.
     let told = ToldDigests::read(&folder.join(RECORD));
     let is_another = told.tells(JOURNAL) && !told.is_of_the_run(JOURNAL, &bytes);
-    if is_another || !is_journal_as_left(bytes.as_slice()).map_err(unread)? {
+    if is_another || !is_journal_as_left(&bytes) {
         return Err(foreign(&path));
     }
     // What is not to be removed is said before anything is.

@@ -15,15 +15,13 @@ pub fn is_journal(file: impl Read) -> io::Result<bool> {
     Ok(is_beginning(&bytes))
 }
 
-/// Whether it is one as a run leaves it, whole or cut short: nobody else has written into it. One of another version is taken for that.
-pub fn is_journal_as_left(mut file: impl Read) -> io::Result<bool> {
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
-    Ok(bytes.is_empty()
-        || match Reader::new(&bytes) {
+/// Whether bytes are one as a run leaves it, whole or cut short: nobody else has written into it. One of another version is taken for that.
+pub fn is_journal_as_left(bytes: &[u8]) -> bool {
+    bytes.is_empty()
+        || match Reader::new(bytes) {
             Ok(reader) => !matches!(reader.into_ending(), journal::Ending::Damaged(_)),
             Err(unreadable) => !matches!(unreadable, Unreadable::Damaged(_)),
-        })
+        }
 }
 
 /// A journal, or what became of it.
