@@ -9,7 +9,7 @@ mod recording;
 
 use albacore_vehicle::Snapshot;
 use divan::{Bencher, black_box};
-use hand_written::Mission;
+use hand_written::{Guided, Mission};
 use recording::Recording;
 use std::time::Instant;
 
@@ -33,32 +33,48 @@ fn compare() {
     let mut by_hand = Mission::new().unwrap();
     recording.snapshots[..recording.begin].iter().for_each(|snapshot| _ = by_hand.step(snapshot));
 
+    let guided = guidance(&recording, by_hand.clone());
     let stretches: Vec<&[Snapshot]> = recording.ticks().chunks(STRETCH).collect();
     let mut machine_ns = vec![Vec::new(); stretches.len()];
     let mut hand_ns = vec![Vec::new(); stretches.len()];
+    let mut guided_ns = vec![Vec::new(); stretches.len()];
     for _ in 0..ROUNDS {
         let mut machine = recording.machine.clone();
         machine.restore(recording.state.clone());
         let mut by_hand = by_hand.clone();
-        for (i, stretch) in stretches.iter().enumerate() {
+        for (i, (stretch, guided)) in stretches.iter().zip(guided.chunks(STRETCH)).enumerate() {
             machine_ns[i].push(nanoseconds(stretch, |snapshot| _ = black_box(machine.step(snapshot))));
             hand_ns[i].push(nanoseconds(stretch, |snapshot| _ = black_box(by_hand.step(snapshot))));
+            guided_ns[i].push(nanoseconds(guided, Guided::step));
         }
     }
     let ticks = recording.ticks().len();
     let (machine, hand) = (Figures::of(machine_ns, ticks), Figures::of(hand_ns, ticks));
+    let guidance = Figures::of(guided_ns, ticks);
     println!("cpt_2005, {ticks} ticks of a run; ns a tick   median   fastest");
     println!("  by the machine                        {:6.0}    {:6.0}", machine.median, machine.fastest);
     println!("  written by hand                       {:6.0}    {:6.0}", hand.median, hand.fastest);
     let (median, fastest) = (machine.median / hand.median, machine.fastest / hand.fastest);
     println!("  ratio                                 {median:6.2}    {fastest:6.2}");
+    println!("  of either, guidance by the same crate {:6.0}    {:6.0}", guidance.median, guidance.fastest);
+    let without = |of: fn(&Figures) -> f64| (of(&machine) - of(&guidance)) / (of(&hand) - of(&guidance));
+    println!("  ratio without it                      {:6.2}    {:6.2}", without(|f| f.median), without(|f| f.fastest));
+}
+
+/// The guidance of each tick of the strategy, which the mission by hand has come to.
+fn guidance(recording: &Recording, mut by_hand: Mission) -> Vec<Guided> {
+    let of_tick = |snapshot| {
+        by_hand.step(snapshot);
+        by_hand.guided()
+    };
+    recording.ticks().iter().map(of_tick).collect()
 }
 
 #[expect(clippy::disallowed_methods, reason = "a benchmark measures the time of its computer")]
-fn nanoseconds(stretch: &[Snapshot], mut step: impl FnMut(&Snapshot)) -> f64 {
+fn nanoseconds<T>(stretch: &[T], mut step: impl FnMut(&T)) -> f64 {
     let begin = Instant::now();
-    for snapshot in stretch {
-        step(black_box(snapshot));
+    for tick in stretch {
+        step(black_box(tick));
     }
     begin.elapsed().as_nanos() as f64
 }

@@ -1,5 +1,6 @@
 //! `cpt.cpt_2005`: the strategy as printed.
 
+use super::guided::Led;
 use super::maneuver::Bowtie;
 use super::search::Find;
 use super::senses::Senses;
@@ -136,6 +137,15 @@ impl Cpt {
                 }
                 Some(self.reacquire(&now))
             }
+        }
+    }
+
+    /// The law that leads the vehicle.
+    pub fn led(&self) -> Led {
+        match &self.doing {
+            Behavior::Find(_) | Behavior::TrackIn { .. } => Led::Course,
+            Behavior::TrackOut(goto) => Led::Goto(*goto),
+            Behavior::Reacquire { bowtie, .. } => Led::Line(bowtie.line()),
         }
     }
 

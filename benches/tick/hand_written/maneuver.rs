@@ -28,6 +28,11 @@ impl Bowtie {
         (Bowtie { centre, up, side, speed, second: false, line }, course)
     }
 
+    /// The line that is followed.
+    pub fn line(&self) -> FollowLine {
+        self.line
+    }
+
     /// The course; none when both lines are behind.
     pub fn step(&mut self, senses: &Senses) -> Option<Heading> {
         let guidance = self.line.step(senses.position, senses.course);

@@ -7,6 +7,7 @@
 
 mod cage;
 mod cpt;
+mod guided;
 mod maneuver;
 mod search;
 mod senses;
@@ -18,6 +19,8 @@ use albacore_guidance::{CommandFilter, Goto, Law, through_water, turning_radius_
 use albacore_vehicle::{Command, Control, Snapshot, TICK_S, Vertical};
 use cage::Cage;
 use cpt::{Cpt, Parameters};
+pub use guided::Guided;
+use guided::Led;
 use senses::{Freshness, Senses};
 
 const CRUISE: f64 = 2.0;
@@ -90,6 +93,18 @@ impl Mission {
         };
         self.tick += 1;
         command
+    }
+
+    /// The guidance of the last tick.
+    pub fn guided(&self) -> Guided {
+        let led = match &self.doing {
+            Doing::Transit(goto) => Led::Goto(*goto),
+            Doing::Tracing { cpt, .. } => cpt.led(),
+            Doing::Waiting | Doing::Over => Led::Course,
+        };
+        let Senses { position, course, flow, .. } = self.senses;
+        let Asked { course: asked, speed, .. } = self.asked;
+        Guided { led, position, course, filter: self.filter, asked, speed, flow }
     }
 
     fn over(&mut self) -> Option<Command> {
