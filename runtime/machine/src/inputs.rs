@@ -147,11 +147,9 @@ impl Run {
                 *peak = number;
             }
             (*stamp, *first) = (tick, number);
-            // Most are one number.
-            if let [_, others @ ..] = numbers
-                && !others.is_empty()
-            {
-                rest[..others.len()].copy_from_slice(others);
+            // Few are more than one number: a copy of any length would be called, for two.
+            for (word, number) in numbers.iter().enumerate().skip(1) {
+                rest[word - 1] = *number;
             }
             if wire.kept > 0 {
                 let place = (*count as u64 % u64::from(wire.kept)) as usize;

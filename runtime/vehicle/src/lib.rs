@@ -150,6 +150,7 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// Adds a sample; numbers beyond the fourth are not carried.
+    #[inline]
     pub fn push(&mut self, measurement: u16, numbers: &[f64]) {
         let mut reading = Reading::default();
         match numbers {

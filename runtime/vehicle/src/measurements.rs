@@ -78,6 +78,7 @@ impl MeasurementInfo {
     }
 
     /// Whether one reading can follow another after some seconds.
+    #[inline]
     pub fn can_follow(&self, now: Reading, before: Reading, time: f64) -> bool {
         let Some(Change { rate, step }) = self.change_max else { return true };
         let error = if self.quantity == Quantity::Position {
@@ -147,6 +148,7 @@ measurements! {
 /// # Panics
 ///
 /// Where there is none of that number: numbers are the constants of this table.
+#[inline]
 pub fn info(measurement: u16) -> &'static MeasurementInfo {
     &ALL[usize::from(measurement)]
 }

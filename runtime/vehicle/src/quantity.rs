@@ -45,6 +45,7 @@ impl Quantity {
     }
 
     /// Whether a reading can be: the ocean is 11 km deep, no tide runs at 10 m/s, no vehicle of ours at 15.
+    #[inline]
     pub fn can_be(self, reading: Reading) -> bool {
         let [a, b, c, _] = reading;
         match self {
@@ -61,6 +62,7 @@ impl Quantity {
     }
 
     /// By how much a reading differs from another: m, rad, m/s, or as it is.
+    #[inline]
     pub fn difference(self, now: Reading, before: Reading) -> f64 {
         match self {
             Quantity::Position | Quantity::Flow => {
@@ -71,6 +73,7 @@ impl Quantity {
     }
 
     /// The way from a reading to the next, of what is one number: a direction turns to the nearer side, clockwise positive.
+    #[inline]
     pub fn step(self, now: Reading, before: Reading) -> f64 {
         match self {
             Quantity::Direction => Heading::from_radians(now[0]) - Heading::from_radians(before[0]),

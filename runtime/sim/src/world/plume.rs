@@ -187,7 +187,7 @@ impl FilamentPlume {
         let all = self.blocks.iter().flat_map(|block| &block.filaments).filter(move |f| f.birth <= time);
         all.filter_map(move |f| {
             let way = self.bridge.part(&self.origins, &self.way(f), step, 1, None)?;
-            let [x, y, z] = way.filament.at(self.time(way.end) - time);
+            let [x, y, z] = way.filament.at(self.time(way.end()) - time);
             Some((f, [x, y, self.height(z)]))
         })
     }

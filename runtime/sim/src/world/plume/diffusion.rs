@@ -36,16 +36,22 @@ impl Diffusion {
     #[inline]
     pub fn draw(&self, filament: &Filament, step: u64, age: f64) -> [f64; 3] {
         let mut draws = self.quick(filament, step);
-        if self.is_early(age) {
+        if self.rises && Diffusion::is_young(age) {
             draws[2] = self.early_rise(filament, step);
         }
         draws
     }
 
-    /// Whether the draws up and down are Gaussian to the last at an age, s.
+    /// Whether a filament is so young, s, that its draws up and down are Gaussian to the last, if it has any.
     #[inline]
-    pub fn is_early(&self, age: f64) -> bool {
-        self.rises && age < EARLY_S
+    pub fn is_young(age: f64) -> bool {
+        age < EARLY_S
+    }
+
+    /// Whether filaments go up and down.
+    #[inline]
+    pub fn rises(&self) -> bool {
+        self.rises
     }
 
     /// The draws where those up and down are like the others.

@@ -72,7 +72,7 @@ impl Nearby {
         let ways = self.wider.last().map_or(&[][..], |wide| &wide.ways);
         for way in ways {
             if let Some(part) = plume.bridge.part(&plume.origins, way, step, 1, Some(near)) {
-                let of_step = part.last_step((part.end as f64 - (step + 1) as f64) * step_s, step_s);
+                let of_step = part.last_step((part.end() as f64 - (step + 1) as f64) * step_s, step_s);
                 if of_step.reaches(near) {
                     self.filaments.push(of_step.filament);
                 }

@@ -20,16 +20,15 @@ const DEEPEST: usize = 12;
 pub struct Way {
     /// As it is at the end, with the mean velocity.
     pub filament: Filament,
-    /// From this step, or its birth since, until that.
-    pub begin: u64,
-    pub end: u64,
+    /// From this step, or its birth since, until that. In 32 bits, with which a way is as large as is copied quickly: two cache lines.
+    begin: u32,
+    end: u32,
+    /// How many steps it goes straight on in the stride.
+    straight: u32,
+    /// Whether it is young when the stride begins: see [`Diffusion::is_young`].
+    is_young: bool,
     /// How long, s.
-    pub time: f64,
-    /// The age of the filament when the stride begins, s, and how many steps it goes straight on in it.
-    age: f64,
-    straight: u64,
-    /// How far off the straight line from its begin to its end it is along an axis at most, m.
-    off: f64,
+    time: f64,
     /// How far from its middle it reads anything, m.
     reach: f64,
     /// Where it may read anything, along the flow and across it: the middle, and how far to either side, m.
@@ -94,18 +93,17 @@ impl Bridge {
         let (time, age) = (steps as f64 * self.steps.step, end_s - filament.birth);
         let straight = self.steps.straight((age - time).max(0.0));
         let way = Way {
-            age: age - time,
             filament: *filament,
-            begin: end - steps,
-            end,
+            begin: (end - steps) as u32,
+            end: end as u32,
+            straight: straight as u32,
+            is_young: Diffusion::is_young(age - time),
             time: time.min(age),
-            straight,
-            off: self.farthest_off(steps, straight),
             reach: CUT_RADII * (self.initial + self.growth * age).sqrt(),
             middle: [0.0; 2],
             extent: [0.0; 2],
         };
-        way.with_bounds()
+        way.with_bounds(self.farthest_off(steps, straight))
     }
 
     /// The part of a way in which a filament is at a step of the plume: of so many steps, or of as many as it goes straight on. None if it
@@ -119,37 +117,36 @@ impl Bridge {
     /// The same of one that is not far as a whole.
     #[inline(never)]
     fn part_of(&self, origins: &[Origin], way: &Way, step: u64, steps: u64, near: Option<Near>) -> Option<Way> {
-        let (whole, mut way, most) = (way, *way, way.straight.max(steps));
+        let (whole, mut way, most) = (way, *way, way.straight.max(steps as u32));
         let diffusion = &origins[way.filament.source as usize].diffusion;
         while way.end - way.begin > most {
             let half = self.half(&way, step);
             if let Some(halved) = &half.halved {
-                let [nx, ny, nz] = diffusion.quick(&way.filament, half.middle);
+                let [nx, ny, nz] = diffusion.quick(&way.filament, u64::from(half.middle));
                 let f = &mut way.filament;
                 (f.x, f.velocity[0]) = halved.moved((f.x, f.velocity[0]), halved.spread * nx);
                 (f.y, f.velocity[1]) = halved.moved((f.y, f.velocity[1]), halved.spread * ny);
                 (f.z, f.velocity[2]) = halved.moved((f.z, f.velocity[2]), halved.rise * nz);
             }
             half.take(&mut way);
-            way.off = self.farthest_off(way.end - way.begin, way.straight);
-            way = way.with_bounds();
+            way = way.with_bounds(self.farthest_off(u64::from(way.end - way.begin), u64::from(way.straight)));
             if near.is_some_and(|near| !way.reaches(near)) {
                 return None;
             }
         }
-        if diffusion.is_early(way.age) {
+        if way.is_young && diffusion.rises() {
             self.rise(diffusion, whole, &mut way, step, most);
         }
         Some(way)
     }
 
     /// The heights of a part that is near, where their draws are dear: most are far, whatever their height.
-    fn rise(&self, diffusion: &Diffusion, whole: &Way, part: &mut Way, step: u64, most: u64) {
+    fn rise(&self, diffusion: &Diffusion, whole: &Way, part: &mut Way, step: u64, most: u32) {
         let mut way = *whole;
         while way.end - way.begin > most {
             let half = self.half(&way, step);
             if let Some(halved) = &half.halved {
-                let off = halved.rise * diffusion.early_rise(&way.filament, half.middle);
+                let off = halved.rise * diffusion.early_rise(&way.filament, u64::from(half.middle));
                 let f = &mut way.filament;
                 (f.z, f.velocity[2]) = halved.moved((f.z, f.velocity[2]), off);
             }
@@ -166,7 +163,7 @@ impl Bridge {
         let Half { time: after, per_time, mut spread, mut rise, .. } = self.halves[depth.min(DEEPEST - 1)];
         let before = way.time - after;
         let mut per_before = per_time;
-        let is_first = step < middle;
+        let is_first = step < u64::from(middle);
         if before < 0.999 * after {
             // Released in the second half.
             if before <= 0.0 {
@@ -195,7 +192,7 @@ impl Bridge {
 
 /// The half of a way in which a step is: the first or the second, and how long it lasts, s.
 struct PartOfWay {
-    middle: u64,
+    middle: u32,
     is_first: bool,
     time: f64,
     /// None of a filament that is released in the second half, of which the way is the whole.
@@ -238,12 +235,12 @@ impl PartOfWay {
 }
 
 impl Way {
-    /// The same with the bounds of where it reads anything.
+    /// The same with the bounds of where it reads anything, so far off its straight line along an axis at most, m.
     #[inline]
-    fn with_bounds(mut self) -> Self {
+    fn with_bounds(mut self, off: f64) -> Self {
         let (half, f) = (0.5 * self.time, &self.filament);
         self.middle = [f.x - half * f.velocity[0], f.y - half * f.velocity[1]];
-        let aside = self.off + self.reach;
+        let aside = off + self.reach;
         self.extent = [aside + half * f.velocity[0].abs(), aside + half * f.velocity[1].abs()];
         self
     }
@@ -254,8 +251,13 @@ impl Way {
         (0..2).all(|axis| (self.middle[axis] - near.center[axis]).abs() <= near.within + self.extent[axis])
     }
 
+    /// The step of the plume with which it ends.
+    pub fn end(&self) -> u64 {
+        u64::from(self.end)
+    }
+
     /// The last step of a part that goes straight on, which ends so many seconds later than that step.
     pub fn last_step(&self, later: f64, step_s: f64) -> Way {
-        Way { filament: self.filament.back(later), time: step_s, off: 0.0, ..*self }.with_bounds()
+        Way { filament: self.filament.back(later), time: step_s, ..*self }.with_bounds(0.0)
     }
 }
