@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose mission cannot run has failed")]
 
 #[path = "../benches/tick/hand_written/mod.rs"]
-#[expect(dead_code, unused_imports, reason = "the benchmark needs all of it")]
+#[expect(dead_code, reason = "the benchmark needs all of it")]
 mod hand_written;
 #[path = "../benches/tick/recording.rs"]
 #[expect(dead_code, reason = "the benchmark needs all of it")]
