@@ -19,6 +19,10 @@ impl Default for LineReader {
 impl LineReader {
     /// The cells of a line, if it is one of CSV.
     pub fn cells(&mut self, line: &[u8]) -> Option<&StringRecord> {
+        // A mark of the order of bytes is left out where a reader begins, and nowhere else.
+        if line.starts_with(b"\xef\xbb\xbf") {
+            self.reader = reader();
+        }
         let before = self.reader.position().byte();
         *self.reader.get_mut() = Cursor::new(line.to_vec());
         let is_read = matches!(self.reader.read_record(&mut self.row), Ok(true));
@@ -41,7 +45,7 @@ mod tests {
 
     #[test]
     fn no_line_changes_how_another_is_read() {
-        let lines: [&[u8]; 12] = [
+        let lines: [&[u8]; 13] = [
             b"a,b\n",
             b"1,2,3\n",
             b"\n",
@@ -54,6 +58,7 @@ mod tests {
             b"",
             b"\"a\nb\",3\n",
             b"5,6\n",
+            b"\xef\xbb\xbf7,8\n",
         ];
         let alone = |line: &[u8]| {
             let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line);

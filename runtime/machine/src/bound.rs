@@ -10,12 +10,19 @@ const UNBOUND: Slot = Slot::MAX;
 const SHARED: Slot = Slot::MAX - 1;
 
 /// A program's instructions, as far as they have been run. It is no part of a run's state: nothing depends on it but time.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Bound {
     /// The program's, each at its own address; operands of the bound ones on words are counted from the first word of the run.
     ops: Vec<Op>,
     /// For each the base of the frame that it is bound to.
     bases: Vec<Slot>,
+}
+
+/// A copy of a run binds its code anew: the prompt keeps many, and runs few of them on.
+impl Clone for Bound {
+    fn clone(&self) -> Self {
+        Bound::default()
+    }
 }
 
 impl Bound {

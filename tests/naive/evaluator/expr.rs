@@ -411,11 +411,10 @@ fn corner(edges: &[Edge], heading: Heading, near: Point) -> Point {
 
 /// Where a ray leaves an area; the point itself when it is outside.
 fn exit(edges: &[Edge], from: Point, heading: Heading) -> Point {
-    if gap(edges, from) < 0.0 {
-        return from;
-    }
     let ray = heading.unit();
-    from + run(edges.iter().copied(), from, ray) * ray
+    // From outside it goes nowhere: by 0, which takes the sign from a zero.
+    let run = if gap(edges, from) < 0.0 { 0.0 } else { run(edges.iter().copied(), from, ray) };
+    from + run * ray
 }
 
 /// Named values as the trace has them, exactly; what holds texts as it is told, for their places mean nothing.

@@ -23,6 +23,8 @@ pub struct Nearby {
     /// As they are at the end of that step.
     filaments: Vec<Filament>,
     wider: [Wide; WIDER.len()],
+    /// The step with which the stride ends that all of it is of: before the first stride the last step is that with which it begins, too.
+    until: u64,
 }
 
 /// The ways of all filaments that can matter farther round, during several steps.
@@ -40,6 +42,9 @@ impl Nearby {
     pub fn reading(&mut self, plume: &FilamentPlume, place: [f64; 3], time: f64) -> f64 {
         if plume.settings.layer.is_some_and(|ceiling| place[2] > ceiling) {
             return 0.0;
+        }
+        if self.until != plume.until {
+            *self = Nearby { until: plume.until, ..Nearby::default() };
         }
         let [x, y, _] = place;
         let step = plume.step_at(time);

@@ -156,6 +156,28 @@ fn one_search_for_a_neighbourhood_reads_the_same_bits_as_one_for_each_place() {
     assert!(read > 500, "{read} places with chemical");
 }
 
+/// Patches alone need no spin-up: who looked at them before the first stride looks anew in it.
+#[test]
+fn a_look_before_the_first_stride_says_nothing_of_it() {
+    let mut scenario = uniform(4.0, Plume::default());
+    scenario.environment.sources.clear();
+    let patch = Patch { at: Point::ORIGIN, radius: 3.0, filaments: 300, age: 60.0, ..Patch::default() };
+    scenario.environment.patches.push(patch.clone());
+    let (mut plume, mut water) = begun(&scenario, spin_up_begin(&scenario), 4);
+    plume.spin_up(&mut water, &[patch], 4);
+    let mut looks = Nearby::default();
+    let place = plume.alive(0.0).map(|(place, _)| place).next().unwrap();
+    assert!(looks.reading(&plume, place, 0.0) > 0.0);
+    for tick in 1..200 {
+        plume.advance_to(tick, &mut water);
+        let time = tick as f64 * TICK_S;
+        let moved = [place[0] + 0.2 * time, place[1], place[2]];
+        let anew = Nearby::default().reading(&plume, moved, time);
+        assert!(anew > 0.0);
+        assert_eq!(looks.reading(&plume, moved, time).to_bits(), anew.to_bits(), "{time} s");
+    }
+}
+
 /// The index leaves out what reads exactly zero, and sums the rest in another order.
 #[test]
 fn an_index_reads_what_a_search_of_the_whole_plume_does() {
