@@ -152,6 +152,11 @@ impl Bottom {
     }
 }
 
+/// The way that was commanded, m, or that from one place to another, where both are known, if that is more.
+fn way_between(commanded: f64, from: Option<Point>, to: Option<Point>) -> f64 {
+    commanded.max(from.zip(to).map_or(0.0, |(from, to)| to.distance(from)))
+}
+
 impl Run {
     /// Takes in the altitude that has come in this tick, if one has; and the water below, if it is an echo of that.
     pub fn sound(&mut self, is_echo: bool) {
@@ -159,7 +164,7 @@ impl Run {
         let way = self.state.command.map_or(0.0, |command| command.speed) * TICK_S;
         self.state.bottom.way += way;
         self.state.bottom.lone_way += way;
-        let now = self.depth();
+        let (now, here) = (self.depth(), self.place());
         let is_elsewhere = self.state.command.is_some_and(|command| match command.vertical {
             Vertical::Depth(goal) => (goal - now).abs() > HELD_M,
             Vertical::Altitude(_) => false,
@@ -170,8 +175,8 @@ impl Run {
                 still.elsewhere += u64::from(is_elsewhere);
             }
             _ => {
-                let at = self.place();
-                self.state.bottom.still = Some(Still { depth: now, elsewhere: 0, way: 0.0, at, water: f64::MAX });
+                let still = Still { depth: now, elsewhere: 0, way: 0.0, at: here, water: f64::MAX };
+                self.state.bottom.still = Some(still);
             }
         }
         if self.is_told_to_rise() {
@@ -196,9 +201,9 @@ impl Run {
         self.state.bottom.in_rise.add(tick, water);
         let again = last.is_some_and(|last| last.altitude == altitude) && !held;
         let before = self.state.bottom.heard.filter(|_| again);
-        let (at, way) = (self.place(), self.way());
-        let Bottom { heard, lone, lone_way, .. } = self.state.bottom;
-        let lone_way = lone.map_or(0.0, |lone| self.way_from(lone_way, lone.at));
+        let Bottom { heard, lone, lone_way, way, .. } = self.state.bottom;
+        let way = way_between(way, heard.and_then(|heard| heard.at), here);
+        let lone_way = lone.map_or(0.0, |lone| way_between(lone_way, lone.at, here));
         let agreed = heard.filter(|heard| heard.agrees_with(water, way));
         let agreed = agreed.or(lone.filter(|lone| lone.agrees_with(water, lone_way)));
         let heard_now = Heard {
@@ -208,7 +213,7 @@ impl Run {
             water_now: water,
             confirmed: agreed.is_some_and(|agreed| tick - agreed.tick <= FRESH_TICKS),
             agrees: agreed.is_some(),
-            at,
+            at: here,
         };
         let bottom = &mut self.state.bottom;
         bottom.doubted = false;
@@ -245,23 +250,18 @@ impl Run {
     /// The way since the latest echo, m: through the water as commanded, or over ground, if that is more. A current carries who stands
     /// still, too.
     fn way(&self) -> f64 {
-        self.way_from(self.state.bottom.way, self.state.bottom.heard.and_then(|heard| heard.at))
+        way_between(self.state.bottom.way, self.state.bottom.heard.and_then(|heard| heard.at), self.place())
     }
 
     /// The way since the depth changed last, m.
     fn still_way(&self) -> f64 {
-        self.state.bottom.still.map_or(0.0, |still| self.way_from(still.way, still.at))
+        self.state.bottom.still.map_or(0.0, |still| way_between(still.way, still.at, self.place()))
     }
 
     /// The least water, m, that was sounded since the depth changed last, of one that should have changed since.
     fn still_water(&self) -> f64 {
         let is_stuck = |still: &Still| still.elsewhere as f64 * TICK_S > LIMIT_FRESH_S;
         self.state.bottom.still.filter(is_stuck).map_or(f64::MAX, |still| still.water)
-    }
-
-    fn way_from(&self, commanded: f64, from: Option<Point>) -> f64 {
-        let over_ground = from.zip(self.place()).map_or(0.0, |(from, here)| here.distance(from));
-        commanded.max(over_ground)
     }
 
     /// An altitude has come that is not believed.

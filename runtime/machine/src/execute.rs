@@ -73,11 +73,15 @@ impl Run {
             };
             let op = &p.ops[pc];
             pc += 1;
-            if matches!(op, Op::Return) {
-                return Stop::Return;
-            }
-            if let Some(stop) = self.execute_one(p, op, pc as Addr, base) {
-                return stop;
+            match op {
+                Op::Return => return Stop::Return,
+                Op::Yield => return Stop::Yield(pc as Addr),
+                Op::End | Op::Finish => return Stop::End,
+                op => {
+                    if let Some(stop) = self.execute_one(p, op, base) {
+                        return stop;
+                    }
+                }
             }
         }
     }
@@ -89,12 +93,12 @@ impl Run {
         compute(&p.ops, &mut frame, &mut self.trig, from)
     }
 
-    /// Executes an instruction that needs more than words; `next` is the address of the one after it.
+    /// Executes an instruction that needs more than words, and does not end its piece of code.
     #[inline(never)]
-    fn execute_one(&mut self, p: &Program, op: &Op, next: Addr, base: Slot) -> Option<Stop> {
+    fn execute_one(&mut self, p: &Program, op: &Op, base: Slot) -> Option<Stop> {
         let b = |slot: Slot| place(slot, base);
         match *op {
-            Op::Compute(_) => {}
+            Op::Compute(_) | Op::Return | Op::Yield | Op::End | Op::Finish => {}
             Op::Area(op) => self.on_area(op, base),
             Op::List(op) => self.on_list(p, op, base),
             Op::Map(op) => self.on_map(op, base),
@@ -105,9 +109,6 @@ impl Run {
                 self.set(b(to), hits);
             }
             Op::Call { code, base: frame } => _ = self.execute(p, code, b(frame)),
-            Op::Return => return Some(Stop::Return),
-            Op::Yield => return Some(Stop::Yield(next)),
-            Op::End | Op::Finish => return Some(Stop::End),
             Op::Abort { why } => {
                 self.abort = Some(self.filled(&p.texts[why as usize], base, p));
                 return Some(Stop::Abort);
