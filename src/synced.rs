@@ -78,9 +78,7 @@ impl Synced {
             synced => synced,
         }
     }
-}
 
-impl Synced {
     fn write_at_once(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if !self.is_as_left()? {
             return Err(io::Error::other(WRITTEN_INTO));

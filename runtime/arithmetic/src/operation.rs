@@ -38,7 +38,7 @@ macro_rules! operators {
                 match self { $(Operator::$name => $count),* }
             }
 
-            /// What is executed; a missing operand is 0.
+            /// What is executed; a missing operand is 0. Where it is called the number of operands is known, and nothing is asked of it.
             #[inline(always)]
             pub fn execute(self, operands: &[f64]) -> f64 {
                 match self { $(Operator::$name => <$name as Operation<$count>>::execute(filled(operands, 0.0))),* }
