@@ -142,28 +142,35 @@ fn texts(svg: &str) -> String {
 fn every_behavior_and_every_guard_is_in_the_picture() {
     let svg = drawn(&["cpt", "trace_plume"]);
     let texts = texts(&svg);
-    for name in ["find", "track_in", "track_out", "reacquire", "cast", "confirm"] {
+    for name in ["find", "track_in", "track_out", "scan", "ride", "weigh", "regain", "conclude"] {
         assert!(texts.contains(name), "{name}");
     }
     let guards = [
-        "1 detection",
-        "2 edge &gt; 0 m and area.run(position, toward: upflow) &lt; edge",
-        "3 no detection for lambda",
-        "4 done and source",
-        "5 detection",
+        "1 late",
+        "2 contact",
+        "3 edge &gt; 0 m and leads_out(area, position, upflow, edge)",
+        "4 no contact for lambda",
+        "5 contact",
         "6 done",
-        "7 detection",
-        "8 done",
-        "9 detection and (position - (lost.first else last)).along(upflow) &gt; beyond",
-        "10 done",
-        "11 detection",
-        "12 done",
+        "7 beside",
+        "8 farther",
+        "9 done",
+        "10 farther",
+        "11 done and contacts.count &lt; 5",
+        "12 done and not fresh",
+        "13 done",
+        "14 done and located",
+        "15 done",
+        "16 contact",
+        "17 done",
+        "18 done and contacts.first",
+        "19 done",
     ];
     for guard in guards {
         assert!(texts.contains(guard), "{guard}\n{texts}");
     }
-    assert!(texts.contains("finish Source(at: area.exit(last, toward: upflow), at_edge: true)"), "{texts}");
-    assert!(svg.contains("<title>find -&gt; track_in on detection do { lhs = side_of(course, flow.toward) }</title>"));
+    assert!(texts.contains("finish Source(at: area.exit(position, toward: upflow), radius: edge, finding: at_edge)"), "{texts}");
+    assert!(svg.contains("<title>find -&gt; track_in on contact do { side = side_of(course, flow.toward) }</title>"));
     assert!(!svg.contains("href") && !svg.contains("url("), "it needs nothing else");
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is no number");
 }

@@ -68,7 +68,7 @@ fn the_standard_library_imports_its_own() {
     std::fs::write(folder.join("search.alb"), "const ours = 1\n").unwrap();
     std::fs::write(
         folder.join("main.alb"),
-        "use cpt, search\nfn f(s: cpt.Source) -> Int { if s.at_edge { search.ours } else { 0 } }\n",
+        "use cpt, search\nfn f(s: cpt.Source) -> Int { if s.radius > 0 m { search.ours } else { 0 } }\n",
     )
     .unwrap();
     assert!(told(&folder).contains("no errors"), "{}", told(&folder));

@@ -267,7 +267,8 @@ impl Text {
             (Kind::ShareForPercent, "share") if ranged => edits.push(self.edit(text, i, i + 1, number)),
             (Kind::OutOfRange, _) if ranged && least > 0.0 => match *unit {
                 "m" => unit_becomes("cm"),
-                "s" => unit_becomes("min"),
+                // Of a range that ends hours later minutes may be in it.
+                "s" if self.word(i + 7) != "h" => unit_becomes("min"),
                 "min" => unit_becomes("s"),
                 _ => {}
             },

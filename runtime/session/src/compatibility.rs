@@ -118,16 +118,28 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
             Some(clause) => {
                 let of_clause = measurements::ALL.iter().filter(|row| row.instrument == Some(clause));
                 let brings: Vec<&str> = of_clause.map(|row| row.name).collect();
-                format!("{}, which tells {}", given(script, scenario, clause), brings.join(" and "))
+                let itself = if is_of_data_sheet(input) {
+                    format!("; or let the mission say it: `{input} fresh 5 s, at first VALUE, else abort`")
+                } else {
+                    String::new()
+                };
+                format!("{}, which tells {}{itself}", given(script, scenario, clause), brings.join(" and "))
             }
             None => "no simulated vehicle has one: run the mission on a vehicle that tells it".to_string(),
         };
         Diagnostic::error(Code::ScenariosWorld, span, message).help(help)
     };
+    // What a data sheet would tell a mission may say itself: `turn_radius fresh 5 s, at first 12.6 m, else abort`.
+    let awaited = script.awaited(mission);
+    let is_given = |input: &str| is_of_data_sheet(input) && awaited.iter().all(|(other, _)| *other != input);
     let required = script.requirements(mission);
     let is_required = |input: &str| required.iter().any(|(other, _)| *other == input);
     let recorded = script.recorded(mission).into_iter().filter(|(input, _)| !is_required(input));
-    required.iter().copied().chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
+    required.iter().copied().filter(|(input, _)| !is_given(input)).chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
+}
+
+fn is_of_data_sheet(input: &str) -> bool {
+    measurements::ALL.iter().any(|row| row.name == input && row.is_of_data_sheet())
 }
 
 /// How a scenario is given a clause: one of another file stays as it is, and is that of which another is derived.

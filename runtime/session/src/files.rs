@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 16] = [
+const STDLIB: [(&str, &str); 18] = [
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
@@ -21,8 +21,10 @@ const STDLIB: [(&str, &str); 16] = [
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("instruments", include_str!("../../../stdlib/instruments.alb")),
     ("links", include_str!("../../../stdlib/links.alb")),
+    ("localize", include_str!("../../../stdlib/localize.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("maps", include_str!("../../../stdlib/maps.alb")),
+    ("reckoning", include_str!("../../../stdlib/reckoning.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
     ("search", include_str!("../../../stdlib/search.alb")),

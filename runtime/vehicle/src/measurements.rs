@@ -77,6 +77,11 @@ impl MeasurementInfo {
         MeasurementInfo { sources, ..self }
     }
 
+    /// Whether it is of the vehicle's data sheet, and no sensor's.
+    pub fn is_of_data_sheet(&self) -> bool {
+        self.instrument == Some(DATA_SHEET)
+    }
+
     /// Whether one reading can follow another after some seconds.
     #[inline]
     pub fn can_follow(&self, now: Reading, before: Reading, time: f64) -> bool {
@@ -94,6 +99,9 @@ impl MeasurementInfo {
 }
 
 /// The rows, and each measurement's number: its place among them.
+/// The clause that gives a vehicle its data sheet.
+const DATA_SHEET: &str = "abilities";
+
 macro_rules! measurements {
     ($($(#[$doc:meta])* $number:ident: $row:expr;)*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the constants that come of it are its names")]
@@ -136,11 +144,11 @@ measurements! {
     /// Where a beacon is that the vehicle hears: as far from where it believes to be as it hears it.
     BEACON: MeasurementInfo::of("beacon", Quantity::Position).of_instrument("usbl");
     /// The radius of the tightest circle that the vehicle drives.
-    TURN_RADIUS: MeasurementInfo::of("turn_radius", Quantity::Height).of_instrument("abilities");
+    TURN_RADIUS: MeasurementInfo::of("turn_radius", Quantity::Height).of_instrument(DATA_SHEET);
     /// How fast it is through the water, at most.
-    TOP_SPEED: MeasurementInfo::of("top_speed", Quantity::Speed).of_instrument("abilities");
+    TOP_SPEED: MeasurementInfo::of("top_speed", Quantity::Speed).of_instrument(DATA_SHEET);
     /// The greatest depth that its own limits allow.
-    DEPTH_LIMIT: MeasurementInfo::of("depth_limit", Quantity::Height).of_instrument("abilities");
+    DEPTH_LIMIT: MeasurementInfo::of("depth_limit", Quantity::Height).of_instrument(DATA_SHEET);
 }
 
 /// A measurement of ours by its number.
