@@ -159,7 +159,7 @@ fn every_behavior_and_every_guard_is_in_the_picture() {
         "11 done and contacts.count &lt; 5",
         "12 done and not fresh",
         "13 done",
-        "14 done and located",
+        "14 done and counted &gt;= looks",
         "15 done",
         "16 contact",
         "17 done",

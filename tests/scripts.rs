@@ -15,6 +15,7 @@ mod fmt;
 mod graph;
 mod imports;
 mod lag;
+mod library;
 mod mixups;
 mod names;
 mod new;
