@@ -36,7 +36,7 @@ def errors(tables, to):
 
 def behaviors(tables, to):
     """What the strategies spend their time with."""
-    names = ["find", "track_in", "track_out", "cast", "reacquire", "confirm"]
+    names = ["find", "track_in", "track_out", "scan", "ride", "regain", "reacquire"]
     figure, axes = plt.subplots(figsize=(9, 1.9))
     for row, table in enumerate(tables.values()):
         left = 0
