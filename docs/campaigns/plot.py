@@ -48,7 +48,7 @@ def behaviors(tables, to):
     axes.set(yticks=range(len(tables)), yticklabels=list(tables), xlabel="mean time in each behavior (min)")
     bars = dict(zip(reversed(axes.get_legend_handles_labels()[1]), reversed(axes.get_legend_handles_labels()[0])))
     labels = [name for name in names if name in bars]
-    axes.legend([bars[name] for name in labels], labels, frameon=False, ncols=6, loc="upper center", bbox_to_anchor=(0.5, 1.3))
+    axes.legend([bars[name] for name in labels], labels, frameon=False, ncols=7, loc="upper center", bbox_to_anchor=(0.5, 1.3))
     save(figure, to / "behaviors.svg")
 
 
