@@ -147,8 +147,8 @@ fn every_behavior_and_every_guard_is_in_the_picture() {
     }
     let guards = [
         "1 late",
-        "2 contact",
-        "3 edge &gt; 0 m and leads_out(area, position, upflow, edge)",
+        "2 contact and leads_out(area, position, upflow, edge)",
+        "3 contact",
         "4 no contact for lambda",
         "5 contact",
         "6 done",
@@ -169,7 +169,10 @@ fn every_behavior_and_every_guard_is_in_the_picture() {
     for guard in guards {
         assert!(texts.contains(guard), "{guard}\n{texts}");
     }
-    assert!(texts.contains("finish Source(at: area.exit(position, toward: upflow), radius: edge, finding: at_edge)"), "{texts}");
+    assert!(
+        texts.contains("finish Source(at: area.exit(position, toward: upflow), radius: edge, finding: at_edge)"),
+        "{texts}"
+    );
     assert!(svg.contains("<title>find -&gt; track_in on contact do { side = side_of(course, flow.toward) }</title>"));
     assert!(!svg.contains("href") && !svg.contains("url("), "it needs nothing else");
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is no number");

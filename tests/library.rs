@@ -1,7 +1,5 @@
 //! The standard library does what its pages say: scripts in `tests/library`, each with the tests that it must pass.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot run has failed")]
-
 use std::process::{Command, Stdio};
 
 #[test]

@@ -135,7 +135,14 @@ fn unsensed(script: &Script, mission: &str, scenario: &str, world: &Scenario) ->
     let required = script.requirements(mission);
     let is_required = |input: &str| required.iter().any(|(other, _)| *other == input);
     let recorded = script.recorded(mission).into_iter().filter(|(input, _)| !is_required(input));
-    required.iter().copied().filter(|(input, _)| !is_given(input)).chain(recorded).filter(|(input, _)| !is_told(input)).map(finding).collect()
+    required
+        .iter()
+        .copied()
+        .filter(|(input, _)| !is_given(input))
+        .chain(recorded)
+        .filter(|(input, _)| !is_told(input))
+        .map(finding)
+        .collect()
 }
 
 fn is_of_data_sheet(input: &str) -> bool {
