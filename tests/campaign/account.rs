@@ -100,6 +100,19 @@ mission nested in calm within 5 min {
 }
 
 #[test]
+fn what_is_declared_is_the_first_place_that_is_reported() {
+    let folder = empty("account_first_place");
+    let found = "if found { report \"vent\": found }";
+    let with_a_count = SEEKING.replace(found, &format!("report \"looks\": 1; {found}"));
+    let mission = script(&folder, "seeking.alb", &with_a_count);
+    let row = row(&table(&mission, "1", &folder.join("t.csv"), &[]));
+    assert_eq!((&row["declared_east_m"], &row["error_m"]), (&row["vent_east_m"], &row["vent_error_m"]));
+    assert!(!row["error_m"].is_empty(), "{row:?}");
+    let row = self::row(&table(&mission, "1", &folder.join("u.csv"), &["--set", "luck=bad"]));
+    assert_eq!([&row["report_t_s"], &row["error_m"], &row["reports"], &row["looks"]], ["", "", "1", "1"]);
+}
+
+#[test]
 fn what_was_not_found_is_told_from_what_was_cut_off() {
     let folder = empty("account_missed");
     let mission = script(&folder, "seeking.alb", SEEKING);
@@ -126,12 +139,12 @@ fn misses_are_listed_by_cause_with_a_command_that_runs_one() {
     let run = format!("albacore run {mission} --set luck=bad --fault 'fault(leak, from: 10 min)' --seed 1");
     assert_eq!(
         summary["missed"],
-        serde_json::json!([{ "why": "nothing reported: none", "count": 7, "seeds": [1, 2, 3, 4, 5], "command": run }])
+        serde_json::json!([{ "why": "nothing declared: none", "count": 7, "seeds": [1, 2, 3, 4, 5], "command": run }])
     );
     assert_eq!(summary["results"], serde_json::json!({ "none": 7 }));
     let text = String::from_utf8(command(&mission, "1..7", &folder.join("u.csv"), &more[..2]).output().unwrap().stdout)
         .unwrap();
-    assert!(text.contains("  missed        7, nothing reported: none: seeds 1, 2, 3, 4, 5, …\n"), "{text}");
+    assert!(text.contains("  missed        7, nothing declared: none: seeds 1, 2, 3, 4, 5, …\n"), "{text}");
     assert!(text.contains(&format!("                albacore run {mission} --set luck=bad --seed 1\n")), "{text}");
     // North of it by 60 m.
     let text =

@@ -8,7 +8,7 @@ use crate::summary::{BehaviorSummary, Report, Summary};
 use albacore_program::{Program, number};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The columns of every table. What was declared, when and how far off, is of the first report; `reports` counts all.
+/// The columns of every table. What was declared, when and how far off, is of the first report of a place; `reports` counts all.
 const FIXED: [&str; 19] = [
     "scenario",
     "seed",
@@ -148,7 +148,7 @@ impl Columns {
     pub(super) fn cells(&self, at: usize, swept: &[String], run: &Summary) -> Vec<String> {
         let Some(case) = self.cases.get(at) else { return Vec::new() };
         let mut cells = self.cells_before(at, swept);
-        cells.extend(fixed_cells(run));
+        cells.extend(fixed_cells(run, case.declared(run)));
         cells.resize(self.names.len(), String::new());
         for (place, cell) in case.places.iter().zip(case.cells(run)) {
             cells[*place] = cell;
@@ -198,6 +198,14 @@ impl CaseColumns {
         (CaseColumns { mission, reports, behaviors, places: Vec::new() }, names)
     }
 
+    /// What a run declared: its first report of a place; of a mission whose reports are of one name or hold no places, its first.
+    fn declared<'a>(&self, run: &'a Summary) -> Option<&'a Report> {
+        let name = self.reports.first().map(|columns| &columns.name);
+        let has_one_name = self.reports.iter().all(|columns| Some(&columns.name) == name);
+        let is_any = has_one_name || !self.reports.iter().any(ReportColumns::tells_places);
+        run.reports.iter().find(|report| is_any || report.north_m.is_some())
+    }
+
     /// The cells of a run that is over, in the order of the columns.
     fn cells(&self, run: &Summary) -> Vec<String> {
         let mut cells = Vec::new();
@@ -222,22 +230,21 @@ impl CaseColumns {
 }
 
 /// The cells of a run in the columns of every table.
-fn fixed_cells(run: &Summary) -> [String; FIXED.len()] {
-    let first = run.reports.first();
+fn fixed_cells(run: &Summary, declared: Option<&Report>) -> [String; FIXED.len()] {
     [
         run.scenario.clone(),
         run.seed.to_string(),
         run.outcome.to_string(),
         run.result.as_ref().map(|result| result.word.clone()).unwrap_or_default(),
         run.reason.clone(),
-        seconds(first.map(|r| r.t_s)),
-        metres(first.and_then(|r| r.error_m)),
-        metres(first.and_then(|r| r.north_m)),
-        metres(first.and_then(|r| r.east_m)),
-        metres(first.and_then(|r| r.true_north_m)),
-        metres(first.and_then(|r| r.true_east_m)),
-        metres(first.and_then(|r| r.error_along_m)),
-        metres(first.and_then(|r| r.error_across_m)),
+        seconds(declared.map(|r| r.t_s)),
+        metres(declared.and_then(|r| r.error_m)),
+        metres(declared.and_then(|r| r.north_m)),
+        metres(declared.and_then(|r| r.east_m)),
+        metres(declared.and_then(|r| r.true_north_m)),
+        metres(declared.and_then(|r| r.true_east_m)),
+        metres(declared.and_then(|r| r.error_along_m)),
+        metres(declared.and_then(|r| r.error_across_m)),
         seconds(Some(run.sim_time_s)),
         metres(Some(run.path_length_m)),
         run.switches.to_string(),

@@ -50,6 +50,11 @@ impl ReportColumns {
     pub fn count(&self) -> usize {
         self.parts.len() + if self.is_timed { 2 } else { 0 }
     }
+
+    /// Whether such a report is of a place.
+    pub fn tells_places(&self) -> bool {
+        self.parts.iter().any(|part| part.label.is_empty() && part.coordinate == Some("north_m"))
+    }
 }
 
 /// Statements that report under one name, each with its place among the program's.

@@ -197,7 +197,7 @@ fn missed(columns: &Columns, case: usize, cells: &[&str]) -> Option<String> {
         _ if outcome != "completed" => Some(because(outcome, cell("reason"))),
         Ok(error) => WITHIN_M.last().filter(|far| error > **far).map(|far| format!("more than {far} m off")),
         Err(_) if columns.has_reports(case) && cell("report_t_s").is_empty() => {
-            Some(because("nothing reported".to_string(), &cell("result").replace('_', " ")))
+            Some(because("nothing declared".to_string(), &cell("result").replace('_', " ")))
         }
         Err(_) => None,
     }
