@@ -11,7 +11,8 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::LazyLock;
 
 /// The standard library, compiled in: an installed binary needs no checkout.
-const STDLIB: [(&str, &str); 18] = [
+const STDLIB: &[(&str, &str)] = &[
+    ("amp", include_str!("../../../stdlib/amp.alb")),
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
     ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
@@ -76,9 +77,9 @@ pub fn load_or_module(path: &Path) -> Result<Script, FileError> {
         return load(path, None, &[]);
     };
     let Some(source) = stdlib(name) else {
-        let modules = STDLIB.map(|(name, _)| name);
+        let modules: Vec<&str> = standard_modules().collect();
         let file = path.with_extension("alb");
-        let help = match nearest(name, modules) {
+        let help = match nearest(name, modules.iter().copied()) {
             _ if file.is_file() => Some(format!("did you mean `{}`?", file.display())),
             Some(near) => Some(format!("did you mean `{near}`?")),
             None => {
@@ -346,7 +347,7 @@ impl Library for Files {
             Some(near) => format!("did you mean `{near}`?"),
             None if known.len() <= LISTED_MAX.max(STDLIB.len()) => format!("there is {}", known.join(", ")),
             None => {
-                let standard: Vec<&str> = STDLIB.iter().map(|(name, _)| *name).collect();
+                let standard: Vec<&str> = standard_modules().collect();
                 format!("there is {}, and the scripts of this project's folder", standard.join(", "))
             }
         })
