@@ -26,6 +26,7 @@ mod speaker;
 mod synced;
 mod test;
 mod vehicle;
+mod zoom;
 
 use albacore_session::seen::one_line;
 use clap::{CommandFactory, Parser, Subcommand};

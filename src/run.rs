@@ -10,13 +10,14 @@ use crate::run_folder::{Left, Place, Record, RunFolder, RunRequest};
 use crate::speaker::{Speaker, hears_requests, no_thread};
 use crate::synced::Synced;
 use crate::vehicle::told;
-use crate::{interruption, message, output};
+use crate::{interruption, message, output, zoom};
 use albacore_session::{
     HostClock, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use std::borrow::Cow;
 use std::io::IsTerminal;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -58,6 +59,9 @@ pub struct Run {
     /// Write no files.
     #[arg(long, conflicts_with_all = ["out", "replace"])]
     no_out: bool,
+    /// The picture shows this time of the run alone: `2400s..2600s`.
+    #[arg(long, value_name = "A..B", value_parser = zoom::parse, conflicts_with = "no_out", allow_negative_numbers = true)]
+    zoom: Option<RangeInclusive<u64>>,
     /// Print the result as one JSON object on standard output.
     #[arg(long)]
     json: bool,
@@ -86,6 +90,9 @@ impl Run {
             Ok(prepared) => prepared,
             Err(exit) => return exit,
         };
+        if let Some(ticks) = &self.zoom {
+            run.zoom(ticks.clone());
+        }
         let printer = ResultPrinter { json: self.json, on_link: self.link.is_some(), started };
         let interrupted = interruption::flag();
         // A vehicle that never answers costs nobody the run that was there.

@@ -6,6 +6,8 @@ use albacore_geometry::{Geodetic, Point, Vector};
 use albacore_program::number;
 use albacore_sim::Scenario;
 use albacore_trace::{Depths, Picture};
+use albacore_vehicle::TICK_S;
+use std::ops::RangeInclusive;
 
 /// What is so in a world before any run, with the flow that carries its plume, m/s.
 pub(crate) fn of_world(scenario: &Scenario, carrying: Vector) -> Picture {
@@ -40,6 +42,9 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
     let deepest = results.deepest_sought();
     let sounded = if deepest.is_some() { results.area.as_slice() } else { &[] };
     let depth = |p| if world.in_simulation { scenario.environment.bottom.depth_at(p) } else { f64::NAN };
+    if let Some(ticks) = &track.zoom {
+        return of_a_time(run, ticks).svg();
+    }
     let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
     Picture {
         title: summary.mission.clone(),
@@ -60,6 +65,37 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         ..of_world(scenario, scenario.environment.flow.mean)
     }
     .svg()
+}
+
+/// A source so near to the track is shown beside it, m.
+const BESIDE_M: f64 = 30.0;
+
+/// The picture of a time of a run, in ticks: the track and what was detected and reported in it. The plume is known as it is at the end alone.
+fn of_a_time(run: &InMemory, ticks: &RangeInclusive<u64>) -> Picture {
+    let InMemory { results, track, .. } = run;
+    let (summary, scenario) = (results.summary(0.0), &results.plan.scenario);
+    let from_to = [ticks.start(), ticks.end()].map(|tick| number::seconds(*tick).trim().to_string());
+    let nothing = if track.points.is_empty() { ": the run was over before" } else { "" };
+    let mut subtitle = subtitle(&summary, results.plan.program.mission.origin);
+    subtitle.truncate(2);
+    subtitle.push(format!("shown: {}{nothing}", from_to.join(" to ")));
+    let is_then = |report: &&Report| ticks.contains(&((report.t_s / TICK_S).round() as u64));
+    let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
+    let world = of_world(scenario, scenario.environment.flow.mean);
+    let is_beside = |(_, source): &(String, Point)| track.points.iter().any(|(at, _)| at.distance(*source) < BESIDE_M);
+    Picture {
+        title: summary.mission.clone(),
+        subtitle,
+        track: track.points.clone(),
+        behaviors: track.behaviors.clone(),
+        rounds: track.rounds.clone(),
+        detections: track.detections.clone(),
+        reports: summary.reports.iter().filter(is_then).filter_map(place).collect(),
+        sources: world.sources.into_iter().filter(is_beside).collect(),
+        no_go: world.no_go,
+        flows: world.flows,
+        ..Picture::default()
+    }
 }
 
 /// What a picture says of its run, about an origin on the globe if there is one.

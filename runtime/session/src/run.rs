@@ -18,6 +18,7 @@ use albacore_trace::journal::JournalHeader;
 use albacore_trace::{BehaviorTrace, TickRecord};
 use albacore_vehicle::{TICK_S, Vehicle, VehicleError};
 use std::io;
+use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) use driver::Driver;
@@ -62,6 +63,11 @@ impl Run {
     pub fn with_journal(&mut self, sink: Box<dyn io::Write + Send>, set: &[String]) {
         let header = self.header(set);
         self.journal.begin(sink, &header);
+    }
+
+    /// Lets the picture show nothing but a time of the run, in ticks.
+    pub fn zoom(&mut self, ticks: RangeInclusive<u64>) {
+        self.memory.track.zoom = Some(ticks);
     }
 
     fn header(&self, set: &[String]) -> JournalHeader {

@@ -8,6 +8,7 @@ use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::{Measurement, measurements};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Ticks between the points of the track.
@@ -23,6 +24,8 @@ pub(crate) struct Track {
     chemical: Option<usize>,
     /// A simulated world without a plume has nothing to detect; of a real one we know no better.
     has_plume: bool,
+    /// The ticks that are shown, where not all are.
+    pub zoom: Option<RangeInclusive<u64>>,
     /// The points of the track, each with the index of its behavior.
     pub points: Vec<(Point, u16)>,
     /// The names of the behaviors.
@@ -49,6 +52,7 @@ impl Track {
                 .iter()
                 .position(|measurement| measurement.name == measurements::name(measurements::CHEMICAL)),
             has_plume: plan.scenario.has_plume(),
+            zoom: None,
             points: Vec::new(),
             behaviors: Vec::new(),
             places: BTreeMap::new(),
@@ -92,6 +96,9 @@ impl Track {
 
 impl Recorder for Track {
     fn take(&mut self, record: &TickRecord) {
+        if self.zoom.as_ref().is_some_and(|ticks| !ticks.contains(&record.tick)) {
+            return;
+        }
         let happened = !record.events.is_empty();
         match record.step {
             Step::Tick => {}
