@@ -25,6 +25,7 @@ pub use scenario::{IssueCause, Scenario, ScenarioError, ScenarioIssue, Setting};
 pub use simulator::Simulator;
 pub use world::beacon::Beacon;
 pub use world::bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
+pub use world::front::Front;
 pub use world::plume::{Patch, Plume, Source, Times};
 pub use world::recorded::{Playback, RecordedPlume, Still};
 pub use world::stratification::Stratification;

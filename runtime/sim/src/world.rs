@@ -4,6 +4,7 @@
 pub(crate) mod beacon;
 pub(crate) mod bottom;
 pub(crate) mod deepest;
+pub(crate) mod front;
 pub(crate) mod plume;
 pub(crate) mod recorded;
 pub(crate) mod simulated;
@@ -14,6 +15,7 @@ pub(crate) mod water;
 use crate::scenario::{Scenario, ScenarioIssues};
 use crate::world::beacon::Beacon;
 use crate::world::bottom::{Bottom, Ground, NoGo, Pit, Plane, Seabed};
+use crate::world::front::Front;
 use crate::world::plume::{Leak, Patch, Plume, Source};
 use crate::world::recorded::{Playback, RecordedPlume};
 use crate::world::simulated::Simulated;
@@ -84,7 +86,11 @@ clauses! {
     "tide" Tide(Tide) => |of, tide| of.flow.tides.push(tide);
     "waves" Waves(Waves) => |of, waves| of.flow.waves = Some(waves);
     "upper_layer" UpperLayer(UpperFlow) => |of, upper| of.flow.upper = Some(upper);
-    "stratification" Stratification(Stratification) => |of, stratification| of.stratification = stratification;
+    "stratification" Stratification(Stratification) => |of, layers| of.stratification = Stratification {
+        front: of.stratification.front.take(),
+        ..layers
+    };
+    "front" Front(Front) => |of, front| of.stratification.front = Some(front);
     "region" Region(Region) => |of, region| of.region = Some(region.area);
     "bottom" Bottom(Plane) => |of, plane| of.bottom.ground = Ground::Plane(plane);
     "pit" Pit(Pit) => |of, pit| of.bottom.pits.push(pit);

@@ -187,7 +187,7 @@ impl<'t> Expectations<'t> {
             evaluation.set(slot, &if_any(beacon));
         }
         for (input, slot) in &slots.inputs {
-            evaluation.set(*slot, &true_words(*input, &truth, &results.plan.scenario));
+            evaluation.set(*slot, &true_words(*input, &truth, time, &results.plan.scenario));
         }
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
@@ -291,9 +291,9 @@ fn is_nearly_round(x: f64) -> bool {
     x != round && (x - round).abs() < 1e-9
 }
 
-/// The words of what an input would truly tell, in SI units. The water's layers are as the scenario has them, everywhere and always.
-fn true_words(input: TrueInput, truth: &Truth, scenario: &Scenario) -> Vec<f64> {
-    let layers = || scenario.environment.stratification.at(truth.depth);
+/// The words of what an input would truly tell at a time (s of the run), in SI units.
+fn true_words(input: TrueInput, truth: &Truth, time: f64, scenario: &Scenario) -> Vec<f64> {
+    let layers = || scenario.environment.stratification.at(truth.position, truth.depth, time);
     match input {
         TrueInput::Depth => vec![truth.depth],
         TrueInput::Altitude => vec![truth.altitude],

@@ -1,12 +1,15 @@
-//! The temperature and the salinity of the water over its depth: what a scenario says of them, and what of that cannot be.
+//! The temperature and the salinity of the water, over its depth and across a front: what a scenario says of them, and what of
+//! that cannot be.
 
 use crate::scenario::{Scenario, ScenarioIssues};
+use crate::world::front::Front;
+use albacore_geometry::Point;
 use albacore_geometry::math::tanh;
 use serde::Deserialize;
 
 /// Two water masses, one above the other, and the layer between them in which the one passes into the other: everywhere and
-/// always the same. Between them temperature and salinity go as the hyperbolic tangent of the depth, the profile of the mixing
-/// layer in the stability theory of stratified flows (Hazel 1972, J. Fluid Mech. 51, 39-61).
+/// always the same, but across a front. Between them temperature and salinity go as the hyperbolic tangent of the depth, the
+/// profile of the mixing layer in the stability theory of stratified flows (Hazel 1972, J. Fluid Mech. 51, 39-61).
 ///
 /// The default is mixed water of 10 degrees and a practical salinity of 35.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -24,6 +27,9 @@ pub struct Stratification {
     pub thermocline: f64,
     /// Its thickness, m: in its middle the temperature changes as if all of the change were evenly spread over so much.
     pub thickness: f64,
+    /// A front in both of them, which has a clause of its own.
+    #[serde(skip)]
+    pub front: Option<Front>,
 }
 
 impl Default for Stratification {
@@ -35,13 +41,21 @@ impl Default for Stratification {
             bottom_salinity: 35.0,
             thermocline: 10.0,
             thickness: 4.0,
+            front: None,
         }
     }
 }
 
 impl Stratification {
-    /// Temperature (degrees Celsius) and practical salinity at a depth (m).
-    pub fn at(&self, depth: f64) -> (f64, f64) {
+    /// Temperature (degrees Celsius) and practical salinity at a place, a depth (m) and a time (s of the run).
+    pub fn at(&self, p: Point, depth: f64, time: f64) -> (f64, f64) {
+        let (temperature, salinity) = self.layers(depth);
+        let (warmer, saltier) = self.front.as_ref().map_or((0.0, 0.0), |front| front.adds(p, time));
+        (temperature + warmer, (salinity + saltier).max(0.0))
+    }
+
+    /// The same without a front.
+    fn layers(&self, depth: f64) -> (f64, f64) {
         // How much of the lower water it is, 0 to 1; the slope of half the tangent of 2 x / h is 1 / h in the middle.
         let lower = 0.5 * (1.0 + tanh(2.0 * (depth - self.thermocline) / self.thickness));
         let between = |above: f64, below: f64| above + lower * (below - above);
@@ -52,13 +66,17 @@ impl Stratification {
 /// What of the water's layers cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let s = &scenario.environment.stratification;
-    let (above, below) = (density(s.surface, s.surface_salinity), density(s.bottom, s.bottom_salinity));
-    objections.of("stratification").unless(
-        None,
-        below >= above - SAME_DENSITY,
-        format!("this water is lighter below ({below:.1} kg/m3) than above ({above:.1} kg/m3): it would turn over"),
-        "make it colder below, or saltier",
-    );
+    let other = s.front.as_ref().map(|front| (front.warmer, front.saltier));
+    for (warmer, saltier) in std::iter::once((0.0, 0.0)).chain(other) {
+        let of = |temperature: f64, salinity: f64| density(temperature + warmer, (salinity + saltier).max(0.0));
+        let (above, below) = (of(s.surface, s.surface_salinity), of(s.bottom, s.bottom_salinity));
+        objections.of("stratification").unless(
+            None,
+            below >= above - SAME_DENSITY,
+            format!("this water is lighter below ({below:.1} kg/m3) than above ({above:.1} kg/m3): it would turn over"),
+            "make it colder below, or saltier",
+        );
+    }
 }
 
 /// The density of sea water at the surface, kg/m3, at a temperature (degrees Celsius) and a practical salinity: the one-atmosphere
@@ -91,12 +109,12 @@ mod tests {
     #[test]
     fn the_water_is_that_of_the_surface_far_above_and_falls_as_steeply_as_it_says_in_the_middle() {
         let water = Stratification { surface: 18.0, bottom: 10.0, surface_salinity: 31.0, ..Stratification::default() };
-        assert_eq!(water.at(10.0), (14.0, 33.0));
-        let ((warm, fresh), (cold, salt)) = (water.at(0.0), water.at(20.0));
+        assert_eq!(water.layers(10.0), (14.0, 33.0));
+        let ((warm, fresh), (cold, salt)) = (water.layers(0.0), water.layers(20.0));
         assert!((warm - 18.0).abs() < 1e-3 && (fresh - 31.0).abs() < 1e-3, "{warm} {fresh}");
         assert!((cold - 10.0).abs() < 1e-3 && (salt - 35.0).abs() < 1e-3, "{cold} {salt}");
-        let slope = (water.at(10.01).0 - water.at(9.99).0) / 0.02;
+        let slope = (water.layers(10.01).0 - water.layers(9.99).0) / 0.02;
         assert!((slope - -8.0 / 4.0).abs() < 1e-4, "{slope}");
-        assert_eq!(Stratification::default().at(3.0), (10.0, 35.0));
+        assert_eq!(Stratification::default().at(Point::ORIGIN, 3.0, 0.0), (10.0, 35.0));
     }
 }

@@ -4,9 +4,9 @@ use super::delay::Delay;
 use super::{AtRest, Instrument, Surroundings};
 use crate::noise::{Noise, Stream};
 use crate::scenario::number;
-use albacore_vehicle::Snapshot;
 use albacore_vehicle::measurements::{SALINITY, TEMPERATURE};
 use albacore_vehicle::rate::is_due;
+use albacore_vehicle::{Snapshot, TICK_S};
 use serde::Deserialize;
 
 /// The CTD: conductivity and temperature, and the practical salinity that is derived from them and the pressure.
@@ -88,7 +88,8 @@ impl CtdProbe {
 
 impl Instrument for CtdProbe {
     fn measure(&mut self, around: &mut Surroundings, snapshot: &mut Snapshot) {
-        let water = |depth| around.world.stratification().at(depth);
+        let time = around.tick as f64 * TICK_S;
+        let water = |depth| around.world.stratification().at(around.truth.position, depth, time);
         if let Some((temperature, salinity)) = self.sample(around.tick, around.truth.depth, water) {
             snapshot.push(TEMPERATURE, &[temperature]);
             snapshot.push(SALINITY, &[salinity]);
