@@ -31,7 +31,7 @@ impl Bottom {
         matches!(self.ground, Ground::Grid(_)) || !self.pits.is_empty()
     }
 
-    /// Metres of water at a point: those over the ground, and those of the pits.
+    /// Metres of water at a point: those over the ground, and those of the pits, which land has not.
     pub fn depth_at(&self, p: Point) -> f64 {
         self.depth(p, self.downhill())
     }
@@ -41,6 +41,9 @@ impl Bottom {
             Ground::Plane(plane) => plane.depth((p - Point::ORIGIN).dot(downhill)),
             Ground::Grid(grid) => grid.depth_at(p),
         };
+        if ground <= 0.0 {
+            return ground;
+        }
         self.pits.iter().fold(ground, |depth, pit| depth + pit.depth_at(p))
     }
 
@@ -131,5 +134,15 @@ mod tests {
         assert!((bottom.depth_at(Point::new(55.0, 100.0)) - (7.0 + 4.0 * 0.60653)).abs() < 1e-4);
         assert!((bottom.depth_at(Point::new(180.0, 100.0)) - 7.0).abs() < 1e-6);
         assert!(!bottom.is_level() && Bottom::flat(4.0).is_level() && !Bottom::plane(slope()).is_level());
+    }
+
+    #[test]
+    fn land_has_no_pits() {
+        let (south_west, north_east) = (Point::new(0.0, 0.0), Point::new(100.0, 100.0));
+        let grid = Grid { south_west, north_east, rows: 2, columns: 2, depths: vec![-2.0, 8.0, -2.0, 8.0] };
+        let pit = Pit { at: Point::new(50.0, 60.0), depth: 5.0, radius: 50.0, ..Pit::default() };
+        let bottom = Bottom { ground: Ground::Grid(grid), pits: vec![pit] };
+        assert!(bottom.depth_at(Point::new(50.0, 5.0)) <= 0.0);
+        assert!(bottom.depth_at(Point::new(50.0, 60.0)) > 8.0);
     }
 }
