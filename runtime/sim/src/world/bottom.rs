@@ -141,7 +141,7 @@ mod tests {
         let (south_west, north_east) = (Point::new(0.0, 0.0), Point::new(100.0, 100.0));
         let grid = Grid { south_west, north_east, rows: 2, columns: 2, depths: vec![-2.0, 8.0, -2.0, 8.0] };
         let pit = Pit { at: Point::new(50.0, 60.0), depth: 5.0, radius: 50.0, ..Pit::default() };
-        let bottom = Bottom { ground: Ground::Grid(grid), pits: vec![pit] };
+        let bottom = Bottom { ground: Ground::Grid(grid.into()), pits: vec![pit] };
         assert!(bottom.depth_at(Point::new(50.0, 5.0)) <= 0.0);
         assert!(bottom.depth_at(Point::new(50.0, 60.0)) > 8.0);
     }
