@@ -23,6 +23,7 @@ const STDLIB: &[(&str, &str)] = &[
     ("filters", include_str!("../../../stdlib/filters.alb")),
     ("inputs", include_str!("../../../stdlib/inputs.alb")),
     ("instruments", include_str!("../../../stdlib/instruments.alb")),
+    ("likelihood", include_str!("../../../stdlib/likelihood.alb")),
     ("links", include_str!("../../../stdlib/links.alb")),
     ("localize", include_str!("../../../stdlib/localize.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
