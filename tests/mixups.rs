@@ -17,10 +17,12 @@ use std::path::{Path, PathBuf};
 const MIXUPS: usize = 182;
 
 /// The sound scripts: of the standard library those that hold code, the missions, the gallery, and two written for the purpose.
-const SCRIPTS: [&str; 29] = [
+const SCRIPTS: [&str; 31] = [
+    "stdlib/amp.alb",
     "stdlib/bathymetry.alb",
     "stdlib/calendar.alb",
     "stdlib/cpt.alb",
+    "stdlib/features.alb",
     "stdlib/filters.alb",
     "stdlib/maneuver.alb",
     "stdlib/maps.alb",
