@@ -68,11 +68,20 @@ impl<'a> Lowering<'a> {
         let (counter, found) = (self.lasting(1), self.lasting(element.saturating_add(1)));
         self.scratch(|l| l.expr_into(list, copy));
         self.emit(Compute::Const { to: counter, value: 0.0 });
+        // A loop may rely on it that one over a list that is written out takes time: there is no way past its first round.
+        let end = match &list.kind {
+            hir::ExprKind::List(elements) if !elements.is_empty() => {
+                let end = self.lasting(1);
+                self.emit(Compute::Const { to: end, value: elements.len() as f64 });
+                Some(end)
+            }
+            _ => None,
+        };
         let top = self.here();
         let cells = copy.saturating_add(grid);
         self.emit(ListOp::At { to: found, list: cells, index: counter, words: element });
         self.typed(found.saturating_add(1), inner);
-        let done = self.emit(Compute::jump_unless(found, 0));
+        let done = end.is_none().then(|| self.emit(Compute::jump_unless(found, 0)));
         let to = self.frame.vars[var];
         self.copy(to, found + 1, element);
         if let Some(place) = place {
@@ -81,8 +90,11 @@ impl<'a> Lowering<'a> {
         }
         self.walking(var, Rounds::Behind(counter, cells), body);
         self.count_up(counter);
-        self.emit(Compute::jump(top));
-        self.land(done);
+        self.emit(match end {
+            Some(end) => Compute::Jump { to: top, when: When::Less(counter, end) },
+            None => Compute::jump(top),
+        });
+        self.land_all(done.into_iter().collect());
     }
 
     /// An area that cannot change while it is walked stays where it is; any other is copied.
