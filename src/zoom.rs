@@ -10,11 +10,12 @@ const LAST_S: f64 = 1e9;
 /// Reads the ticks from one time of the run to another.
 pub fn parse(text: &str) -> Result<RangeInclusive<u64>, String> {
     let (from, to) = text.split_once("..").ok_or("two times with `..` between them are wanted: `2400s..2600s`")?;
-    let (from, to) = (seconds(from)?, seconds(to)?);
+    let ticks = |time: &str| seconds(time).map(|time| (time * TICKS_PER_S).round() as u64);
+    let (from, to) = (ticks(from)?, ticks(to)?);
     if to <= from {
-        return Err("it has no length: the earlier time comes first, as in `2400s..2600s`".to_string());
+        return Err("it is shorter than a tick: the earlier time comes first, as in `2400s..2600s`".to_string());
     }
-    Ok((from * TICKS_PER_S).round() as u64..=(to * TICKS_PER_S).round() as u64)
+    Ok(from..=to)
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -39,7 +40,19 @@ mod tests {
     fn times_are_read_in_ticks() {
         assert_eq!(parse("2400s..2600s"), Ok(24_000..=26_000));
         assert_eq!(parse("0.5 min..1h"), Ok(300..=36_000));
-        for wrong in ["", "5s", "5..6", "5s..5s", "6s..5s", "-1s..5s", "nans..5s", "5s..1e300h", "5 m..6 m", "5s..é"] {
+        for wrong in [
+            "",
+            "5s",
+            "5..6",
+            "5s..5s",
+            "6s..5s",
+            "-1s..5s",
+            "nans..5s",
+            "5s..1e300h",
+            "0s..0.04s",
+            "5 m..6 m",
+            "5s..é",
+        ] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }
