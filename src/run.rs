@@ -129,6 +129,10 @@ impl Run {
         let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
         let summary = run.summary(printer.wall_s());
         warn_of_faults_after(std::iter::once(&plan), summary.sim_time_s);
+        if self.zoom.as_ref().is_some_and(|ticks| *ticks.start() > summary.ticks) {
+            let message = format!("nothing is in the picture: the run was over after {:.1} s", summary.sim_time_s);
+            message::warning(&message, "choose an earlier time for `--zoom`");
+        }
         let left = kept.finish(&run, &summary);
         left.tell_troubles();
         printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, &left);

@@ -36,6 +36,7 @@ mod unseen;
 mod waiting;
 mod whole_program;
 mod writers;
+mod zoom;
 
 mod examples;
 mod shell;

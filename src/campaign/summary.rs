@@ -3,7 +3,7 @@
 use super::seeds::Seeds;
 use crate::output::Lines;
 use albacore_session::Plan;
-use albacore_session::campaign::{INTERVAL, Missed, QUANTILE, Quantiles, Share, Tally, Within};
+use albacore_session::campaign::{INTERVAL, Missed, QUANTILE, Quantiles, Share, Tally, Within, tells_places};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -73,7 +73,8 @@ impl<'a> CampaignSummary<'a> {
             outcomes: tally.outcomes(),
             results: tally.results(),
             reported: tally.reported(),
-            within: (!plan.scenario.environment.sources.is_empty()).then(|| tally.within()),
+            within: (tells_places(&plan.program) && !plan.scenario.environment.sources.is_empty())
+                .then(|| tally.within()),
             interval: INTERVAL,
             error_m: tally.error_m(),
             error_along_m: tally.error_along_m(),

@@ -113,6 +113,18 @@ fn what_is_declared_is_the_first_place_that_is_reported() {
 }
 
 #[test]
+fn of_a_mission_that_reports_no_place_nothing_is_said_to_be_far_off() {
+    let folder = empty("account_no_place");
+    let found = "if found { report \"vent\": found }";
+    for (name, report, is_told) in [("number", "report \"looks\": 1", false), ("place", found, true)] {
+        let mission = script(&folder, "seeking.alb", &SEEKING.replace(found, report));
+        let out = folder.join(format!("{name}.csv"));
+        let text = String::from_utf8(command(&mission, "1..2", &out, &[]).output().unwrap().stdout).unwrap();
+        assert_eq!(text.contains("within 15 m"), is_told, "{text}");
+    }
+}
+
+#[test]
 fn what_was_not_found_is_told_from_what_was_cut_off() {
     let folder = empty("account_missed");
     let mission = script(&folder, "seeking.alb", SEEKING);

@@ -12,6 +12,7 @@ pub use cell::plain;
 pub use columns::{Columns, Row};
 pub use order::RowOrder;
 pub use paired::{MEDIAN_INTERVAL, PairedDifference, PairedShare, SHARE_INTERVAL, TEST};
+pub use report_columns::tells_places;
 pub use statistics::{INTERVAL, QUANTILE, Quantiles, Share};
 pub use tally::{Missed, Tallies, Tally, WITHIN_M, Within};
 

@@ -4,7 +4,7 @@
 use super::columns::METRE_DECIMALS;
 use crate::reported;
 use crate::summary::Report;
-use albacore_program::{ReportSite, Shape, number};
+use albacore_program::{Program, ReportSite, Shape, number};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -53,7 +53,7 @@ impl ReportColumns {
 
     /// Whether such a report is of a place.
     pub fn tells_places(&self) -> bool {
-        self.parts.iter().any(|part| part.label.is_empty() && part.coordinate == Some("north_m"))
+        self.parts.iter().any(Part::is_of_a_place)
     }
 }
 
@@ -72,6 +72,11 @@ pub(super) fn by_names(sites: &[ReportSite]) -> Vec<(&str, Sites<'_>)> {
         names[name].1.push((at, site));
     }
     names
+}
+
+/// Whether any report of a program is of a place.
+pub fn tells_places(program: &Program) -> bool {
+    by_names(&program.reports).iter().any(|(_, sites)| parts(sites).iter().any(Part::is_of_a_place))
 }
 
 /// The parts of all that is reported under a name.
@@ -97,6 +102,11 @@ pub(super) fn parts(sites: &Sites) -> Vec<Part> {
 }
 
 impl Part {
+    /// Whether it is of the place that a report is of, and of none behind a label.
+    fn is_of_a_place(&self) -> bool {
+        self.label.is_empty() && self.coordinate == Some("north_m")
+    }
+
     /// What of a value with a shape has columns.
     fn of(self, shape: &Shape) -> Vec<Part> {
         let coordinates = |names: [&'static str; 2], unit: Option<String>| {

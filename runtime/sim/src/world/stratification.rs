@@ -6,6 +6,7 @@ use crate::world::front::Front;
 use albacore_geometry::Point;
 use albacore_geometry::math::tanh;
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 
 /// Two water masses, one above the other, and the layer between them in which the one passes into the other: everywhere and
 /// always the same, but across a front. Between them temperature and salinity go as the hyperbolic tangent of the depth, the
@@ -51,7 +52,7 @@ impl Stratification {
     pub fn at(&self, p: Point, depth: f64, time: f64) -> (f64, f64) {
         let (temperature, salinity) = self.layers(depth);
         let (warmer, saltier) = self.front.as_ref().map_or((0.0, 0.0), |front| front.adds(p, time));
-        (temperature + warmer, (salinity + saltier).max(0.0))
+        (temperature + warmer, salinity + saltier)
     }
 
     /// The same without a front.
@@ -63,10 +64,30 @@ impl Stratification {
     }
 }
 
+/// What water can have, degrees Celsius and practical salinity: as the ranges of `stratification` say it of each layer.
+const TEMPERATURES: RangeInclusive<f64> = -2.0..=40.0;
+const SALINITIES: RangeInclusive<f64> = 0.0..=42.0;
+
 /// What of the water's layers cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let s = &scenario.environment.stratification;
     let other = s.front.as_ref().map(|front| (front.warmer, front.saltier));
+    if let Some((warmer, saltier)) = other {
+        let warm = [s.surface + warmer, s.bottom + warmer];
+        let salty = [s.surface_salinity + saltier, s.bottom_salinity + saltier];
+        let (mut front, mend) = (objections.of("front"), "make the difference smaller, or change `stratification`");
+        for (param, there, water, unit) in
+            [("warmer", warm, &TEMPERATURES, "degC"), ("saltier", salty, &SALINITIES, "psu")]
+        {
+            if let Some(there) = there.into_iter().find(|there| !water.contains(there)) {
+                let (least, most) = (water.start(), water.end());
+                let message = format!(
+                    "far to starboard the water has {there} {unit}: it is to have {least} {unit} to {most} {unit}"
+                );
+                front.unless(Some(param), false, message, mend);
+            }
+        }
+    }
     for (warmer, saltier) in std::iter::once((0.0, 0.0)).chain(other) {
         let of = |temperature: f64, salinity: f64| density(temperature + warmer, (salinity + saltier).max(0.0));
         let (above, below) = (of(s.surface, s.surface_salinity), of(s.bottom, s.bottom_salinity));
