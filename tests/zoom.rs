@@ -1,7 +1,5 @@
 //! `run --zoom`: the picture of a time of a run.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
-
 use std::path::Path;
 use std::process::{Command, Stdio};
 
