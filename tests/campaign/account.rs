@@ -113,6 +113,18 @@ fn what_is_declared_is_the_first_place_that_is_reported() {
 }
 
 #[test]
+fn what_is_called_a_source_is_declared_whatever_is_reported_before() {
+    let folder = empty("account_source");
+    let found = "if found { report \"vent\": found }";
+    let both = SEEKING.replace(found, "report \"corner\": op.center; if found { report \"source\": found }");
+    let mission = script(&folder, "seeking.alb", &both);
+    let row = row(&table(&mission, "1", &folder.join("t.csv"), &[]));
+    assert_eq!((&row["declared_east_m"], &row["error_m"]), (&row["source_east_m"], &row["source_error_m"]));
+    let row = self::row(&table(&mission, "1", &folder.join("u.csv"), &["--set", "luck=bad"]));
+    assert_eq!((row["error_m"].as_str(), row["reports"].as_str()), ("", "1"), "a corner is no source");
+}
+
+#[test]
 fn of_a_mission_that_reports_no_place_nothing_is_said_to_be_far_off() {
     let folder = empty("account_no_place");
     let found = "if found { report \"vent\": found }";

@@ -149,6 +149,8 @@ measurements! {
     TOP_SPEED: MeasurementInfo::of("top_speed", Quantity::Speed).of_instrument(DATA_SHEET);
     /// The greatest depth that its own limits allow.
     DEPTH_LIMIT: MeasurementInfo::of("depth_limit", Quantity::Height).of_instrument(DATA_SHEET);
+    /// The current below the vehicle.
+    FLOW_BELOW: MeasurementInfo::of("flow_below", Quantity::Flow).of_instrument("lower_adcp");
 }
 
 /// A measurement of ours by its number.

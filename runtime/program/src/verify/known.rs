@@ -318,6 +318,15 @@ impl Known {
             .collect()
     }
 
+    /// Words that are more than they were at this place before are taken to grow to the next of a few bounds.
+    pub fn widen(&mut self, before: &Known) {
+        for (slot, word) in &mut self.words {
+            if let Some(was) = before.words.get(slot).filter(|was| was.range != word.range) {
+                word.range = widened(word.range, was.range);
+            }
+        }
+    }
+
     /// What is told that differs from what was told at this place before is told no more, so that an end is found.
     pub fn settle(&mut self, before: &Known) {
         for (slot, implications) in &mut self.implications {

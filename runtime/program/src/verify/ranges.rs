@@ -16,6 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// So often a result, and what ways into a place tell, is taken as it is; then what still grows is widened.
 pub(super) const PATIENCE: u32 = 3;
 
+/// So often a place is come to with words that are more than before; then what still grows is widened, wherever it comes from.
+const ROUNDS_MAX: u32 = 24;
+
 /// What an operation has given in the rounds that were followed.
 #[derive(Clone, Copy)]
 pub(super) struct Results {
@@ -234,6 +237,9 @@ impl<'p> Ranges<'p> {
                             let mut joined = before.join(&known, &self.ground);
                             if *times >= PATIENCE {
                                 joined.settle(before);
+                            }
+                            if *times >= ROUNDS_MAX {
+                                joined.widen(before);
                             }
                             if joined == *before {
                                 break;

@@ -8,7 +8,11 @@ use crate::summary::{BehaviorSummary, Report, Summary};
 use albacore_program::{Program, number};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The columns of every table. What was declared, when and how far off, is of the first report of a place; `reports` counts all.
+/// The report that says where a source is, in a mission that makes others of places beside it.
+const SOURCE: &str = "source";
+
+/// The columns of every table. What was declared, when and how far off, is of the first report of a place, or of the first called `source` where a
+/// mission has such; `reports` counts all.
 const FIXED: [&str; 19] = [
     "scenario",
     "seed",
@@ -198,8 +202,12 @@ impl CaseColumns {
         (CaseColumns { mission, reports, behaviors, places: Vec::new() }, names)
     }
 
-    /// What a run declared: its first report of a place; of a mission whose reports are of one name or hold no places, its first.
+    /// What a run declared: its first report of a place, of a mission that reports a `source` the first of that; of a mission whose reports are of one
+    /// name or hold no places, its first.
     fn declared<'a>(&self, run: &'a Summary) -> Option<&'a Report> {
+        if self.reports.iter().any(|columns| columns.name == SOURCE && columns.tells_places()) {
+            return run.reports.iter().find(|report| report.name == SOURCE && report.north_m.is_some());
+        }
         let name = self.reports.first().map(|columns| &columns.name);
         let has_one_name = self.reports.iter().all(|columns| Some(&columns.name) == name);
         let is_any = has_one_name || !self.reports.iter().any(ReportColumns::tells_places);

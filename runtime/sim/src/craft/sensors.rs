@@ -18,7 +18,7 @@ mod sounder;
 mod usbl;
 
 pub use abilities::Abilities;
-pub use adcp::{Adcp, Looks};
+pub use adcp::{Adcp, Looks, LowerAdcp};
 pub use battery::Battery;
 pub use clock::Date;
 pub use compass::Compass;
@@ -81,6 +81,8 @@ pub struct InstrumentSetup {
     pub date: Option<Date>,
     /// The receiver of beacons; none: the vehicle has none.
     pub usbl: Option<Usbl>,
+    /// What the profiler sees below the vehicle, told apart; none: it is not.
+    pub lower_adcp: Option<LowerAdcp>,
     /// What the vehicle tells of itself; none: nothing.
     pub abilities: Option<Abilities>,
     /// What is told as it was recorded, whatever the instruments would tell.
@@ -143,6 +145,7 @@ clauses! {
     "date" Date => date in Some;
     "usbl" Usbl => usbl in Some;
     "abilities" Abilities => abilities in Some;
+    "lower_adcp" LowerAdcp => lower_adcp in Some;
 }
 
 impl InstrumentSetup {
@@ -159,6 +162,7 @@ impl InstrumentSetup {
         let at = measurements::ALL.iter().position(|row| row.name == measurement)?;
         match u16::try_from(at).ok()? {
             measurements::FLOW => self.adcp.silence(lies),
+            measurements::FLOW_BELOW => self.lower_adcp.as_ref()?.silence(lies),
             measurements::ALTITUDE | measurements::WATER_DEPTH => self.sounder.silence(lies),
             measurements::TEMPERATURE | measurements::SALINITY => self.ctd.as_ref()?.silence(lies),
             _ => None,
@@ -201,6 +205,7 @@ pub(crate) struct Instruments {
     clock: Option<Clock>,
     usbl: Option<UsblReceiver>,
     data_sheet: Option<DataSheet>,
+    lower_adcp: Option<Profiler>,
     player: Player,
 }
 
@@ -218,12 +223,13 @@ impl Instruments {
             clock: setup.date.clone().map(Clock),
             usbl: setup.usbl.as_ref().map(|usbl| UsblReceiver::new(usbl, seed)),
             data_sheet: setup.abilities.as_ref().map(|abilities| DataSheet::new(abilities, limits)),
+            lower_adcp: setup.lower_adcp.as_ref().map(|adcp| Profiler::below(adcp, seed)),
             player: Player::new(&setup.played),
         }
     }
 
     /// All of them, in the order in which a snapshot holds what they tell: a part of every recorded run.
-    fn in_order(&mut self) -> [&mut dyn Instrument; 10] {
+    fn in_order(&mut self) -> [&mut dyn Instrument; 11] {
         [
             &mut self.navigation,
             &mut self.pressure,
@@ -235,6 +241,7 @@ impl Instruments {
             &mut self.clock,
             &mut self.usbl,
             &mut self.data_sheet,
+            &mut self.lower_adcp,
         ]
     }
 

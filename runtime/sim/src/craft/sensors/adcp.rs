@@ -7,7 +7,7 @@ use crate::scenario::number;
 use albacore_geometry::{Heading, Vector};
 use albacore_navigation::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates};
 use albacore_vehicle::Snapshot;
-use albacore_vehicle::measurements::FLOW;
+use albacore_vehicle::measurements::{FLOW, FLOW_BELOW};
 use albacore_vehicle::rate::{is_due, sample};
 use serde::Deserialize;
 
@@ -26,6 +26,7 @@ pub struct Adcp {
     /// The flow is averaged over so many bins, the nearest that are valid. Default 1.
     pub count: u32,
     /// Which looks the flow is estimated from. Default upward.
+    #[serde(default)]
     pub looks: Looks,
     /// Looks a second. Default 1.
     pub rate: f64,
@@ -72,6 +73,19 @@ impl Adcp {
     }
 }
 
+/// The flow below the vehicle, told beside the flow: what the downward looks of a profiler see. Its settings are those of an [`Adcp`], whose `looks`
+/// are downward whatever they say.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(transparent)]
+pub struct LowerAdcp(Adcp);
+
+impl LowerAdcp {
+    /// Why a vehicle at rest has no sample of it.
+    pub(super) fn silence(&self, lies: &AtRest) -> Option<String> {
+        self.0.silence(lies)
+    }
+}
+
 /// The looks of the profiler that the flow is estimated from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -115,6 +129,8 @@ enum Look {
 #[derive(Clone, Debug)]
 pub struct Profiler {
     settings: Adcp,
+    /// What it tells.
+    measurement: u16,
     /// Of each bin, one stream.
     noise: Vec<Noise>,
     estimate: FlowEstimate,
@@ -127,8 +143,19 @@ impl Profiler {
     /// The profiler of a run.
     pub fn new(settings: &Adcp, seed: u64) -> Self {
         let noise = (0..settings.count).map(|bin| Noise::sub(seed, Stream::Adcp, bin)).collect();
+        Profiler::of(settings.clone(), FLOW, noise)
+    }
+
+    /// The one of a run that looks below the vehicle.
+    pub fn below(LowerAdcp(settings): &LowerAdcp, seed: u64) -> Self {
+        let noise = (0..settings.count).map(|bin| Noise::named(seed, &format!("lower adcp, bin {bin}"))).collect();
+        Profiler::of(Adcp { looks: Looks::Down, ..settings.clone() }, FLOW_BELOW, noise)
+    }
+
+    fn of(settings: Adcp, measurement: u16, noise: Vec<Noise>) -> Self {
         let estimate = FlowEstimate::new(settings.gates.clone());
-        Profiler { settings: settings.clone(), noise, estimate, delay: Delay::new(settings.delay), told: Vector::ZERO }
+        let delay = Delay::new(settings.delay);
+        Profiler { settings, measurement, noise, estimate, delay, told: Vector::ZERO }
     }
 
     /// The flow that it told last, m/s toward; none at first.
@@ -218,7 +245,7 @@ impl Instrument for Profiler {
         let flow_at = |height| around.world.flow(truth.position, height, around.time_s()) + around.current;
         if let Some(flow) = self.sample(around.tick, &view, flow_at) {
             self.told = flow;
-            snapshot.push(FLOW, &[flow.north, flow.east]);
+            snapshot.push(self.measurement, &[flow.north, flow.east]);
         }
     }
 }
@@ -256,6 +283,15 @@ mod tests {
         assert!(is_about(height(&quiet(Looks::Both), &view()), 2.0), "as many of the one as of the other");
         let far = Adcp { blanking: 0.2, bin: 0.8, ..quiet(Looks::Down) };
         assert!(is_about(height(&far, &view()), 2.0 - 0.6));
+    }
+
+    #[test]
+    fn what_is_below_is_told_beside_what_is_above() {
+        let mut below = Profiler::below(&LowerAdcp(quiet(Looks::Up)), 1);
+        let shear = |height: f64| Vector::new(0.1 * height, 0.0);
+        let heard = (0..400).filter_map(|tick| below.mean(tick, &view(), shear)).last();
+        assert!(is_about(heard.map(|flow| flow.north / 0.1), 1.0));
+        assert_eq!(below.measurement, FLOW_BELOW);
     }
 
     #[test]
