@@ -173,7 +173,9 @@ fn every_behavior_and_every_guard_is_in_the_picture() {
         texts.contains("finish Source(at: area.exit(position, toward: upflow), radius: edge, finding: at_edge)"),
         "{texts}"
     );
-    assert!(svg.contains("<title>find -&gt; track_in on contact do { side = side_of(course, current.toward) }</title>"));
+    assert!(
+        svg.contains("<title>find -&gt; track_in on contact do { side = side_of(course, current.toward) }</title>")
+    );
     assert!(!svg.contains("href") && !svg.contains("url("), "it needs nothing else");
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is no number");
 }
