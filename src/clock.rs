@@ -50,6 +50,25 @@ impl Utc {
         Utc(moment.clamp(SystemTime::UNIX_EPOCH, last))
     }
 
+    /// The moment that a text tells: `2026-11-22T10:31:05Z`.
+    pub fn read(text: &str) -> Option<Self> {
+        humantime::parse_rfc3339_weak(text).ok().map(Utc::of)
+    }
+
+    /// So many seconds later.
+    pub fn after(self, seconds: f64) -> Self {
+        let later = Duration::try_from_secs_f64(seconds).ok().and_then(|later| self.0.checked_add(later));
+        Utc::of(later.unwrap_or(self.0))
+    }
+
+    /// Seconds since another moment; less than 0 if it is earlier.
+    pub fn since(self, other: Utc) -> f64 {
+        match self.0.duration_since(other.0) {
+            Ok(later) => later.as_secs_f64(),
+            Err(earlier) => -earlier.duration().as_secs_f64(),
+        }
+    }
+
     /// `2026-11-22T10-31-05Z`: no file system minds it, and names are in the order of time.
     pub fn file_name(self) -> String {
         humantime::format_rfc3339_seconds(self.0).to_string().replace(':', "-")

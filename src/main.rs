@@ -16,8 +16,10 @@ mod made;
 mod message;
 mod new;
 mod output;
+mod past;
 mod plan;
 mod repl;
+mod replay;
 mod run;
 mod run_folder;
 mod scenario;
@@ -56,6 +58,10 @@ enum Verb {
     Test(test::Test),
     /// Drive a simulated vehicle line by line.
     Repl(repl::Repl),
+    /// Run a mission again on what its vehicle sensed, as it was or with changes.
+    ///
+    /// The machine is fed with the samples of the journal: bit for bit the same, or, with another script or parameter, until it does otherwise.
+    Replay(replay::ReplayRun),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -107,6 +113,7 @@ fn main() -> ExitCode {
         Verb::Fmt(fmt) => fmt.run(),
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
+        Verb::Replay(replay) => replay.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

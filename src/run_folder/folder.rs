@@ -26,7 +26,7 @@ const RUNS: &str = "albacore-runs";
 const RECORD_MORE: usize = 4096;
 
 /// No file beside a journal has more bytes.
-const LEFT_BYTES_MAX: u64 = 1 << 30;
+pub const LEFT_BYTES_MAX: u64 = 1 << 30;
 
 const ELSEWHERE: &str = "move it away, or choose another folder with `--out`";
 

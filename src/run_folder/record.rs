@@ -52,15 +52,20 @@ pub fn is_record(path: &Path) -> bool {
     bytes.is_empty() || is_as_summed(&bytes[..bytes.len() - blanks])
 }
 
+/// What the record at a path tells, whoever wrote it; null where there is none.
+pub fn told(record: &Path) -> serde_json::Value {
+    let text = read_file(record, SOURCE_BYTES_MAX as u64).ok();
+    let told = text.and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
+    told.filter(serde_json::Value::is_object).unwrap_or_default()
+}
+
 /// The digests of a run's files, as its record tells them.
 pub struct ToldDigests(serde_json::Value);
 
 impl ToldDigests {
     /// Those of the record at a path. None where it tells none.
     pub fn read(record: &Path) -> Self {
-        let text = read_file(record, SOURCE_BYTES_MAX as u64).ok();
-        let told = text.and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
-        ToldDigests(told.map_or(serde_json::Value::Null, |mut told| told["files"].take()))
+        ToldDigests(told(record)["files"].take())
     }
 
     /// Whether a file with these bytes is the run's. One that has just been created is empty.

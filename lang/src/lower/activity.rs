@@ -152,7 +152,7 @@ impl<'a> Lowering<'a> {
         self.update_timers(&condition_timers, at, None);
         self.emit(Op::Return);
 
-        let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(why, condition)).collect();
+        let aborts = activity.aborts.iter().map(|(why, condition)| self.abort(id, why, condition)).collect();
         let reactions = self.reactions(&activity.reactions);
         let body = self.activity_body(id, &activity.body);
         if let Some(mission) = &activity.mission {
@@ -297,13 +297,20 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn abort(&mut self, why: &[hir::TextPart], condition: &Expr) -> Abort {
+    fn abort(&mut self, id: usize, why: &[hir::TextPart], condition: &Expr) -> Abort {
         let value = self.lasting(1);
         let entry = self.here();
         self.scratch(|l| l.expr_into(condition, value));
         let why = self.text(why);
         self.emit(Op::Return);
-        Abort { condition: Code { entry, value }, why }
+        Abort {
+            text: self.sources.text(condition.span).to_string(),
+            place: self.sources.place(condition.span),
+            condition: Code { entry, value },
+            watched: self.watched(id, condition),
+            terms: self.terms(condition),
+            why,
+        }
     }
 
     fn mission_parts(&mut self, mission: &hir::Mission) {

@@ -17,6 +17,7 @@ mod scenario;
 mod stmt;
 mod table;
 mod tell;
+mod terms;
 mod test;
 mod watch;
 

@@ -30,16 +30,14 @@ impl<'a> Lowering<'a> {
             self.emit(Op::Return);
             let exits = leaving
                 .into_iter()
-                .map(|(i, rule)| Exit {
-                    rule: first_rule + i as u32,
-                    guard: self.code(&rule.on),
-                    guard_done: mentions_done(&rule.on).then(|| {
-                        self.frame.done = true;
-                        let code = self.code(&rule.on);
-                        self.frame.done = false;
-                        code
-                    }),
-                    watched: self.watched(id, &rule.on),
+                .map(|(i, rule)| {
+                    let (guard, terms) = (self.code(&rule.on), self.terms(&rule.on));
+                    self.frame.done = true;
+                    let done = mentions_done(&rule.on).then(|| (self.code(&rule.on), self.terms(&rule.on)));
+                    self.frame.done = false;
+                    let (guard_done, terms_done) = done.map_or((None, None), |(code, terms)| (Some(code), terms));
+                    let watched = self.watched(id, &rule.on);
+                    Exit { rule: first_rule + i as u32, guard, guard_done, watched, terms, terms_done }
                 })
                 .collect();
             entries.push(Entry { activity: index, arm, watch, exits });
@@ -114,7 +112,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// What the trace prints of a guard: its names, and for each signal the readings that it is made of.
-    fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
+    pub(super) fn watched(&mut self, id: usize, guard: &Expr) -> Vec<WatchedCode> {
         self.leaves(id, guard)
             .into_iter()
             .map(|(name, e)| {

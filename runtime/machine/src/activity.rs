@@ -3,6 +3,7 @@
 use crate::Event;
 use crate::execute::Stop;
 use crate::state::{Declared, Phase, Run};
+use crate::tried::Condition;
 use albacore_program::{
     Activity, ActivityId, ActivityKind, Addr, Body, Cause, Entry, Exit, Op, Program, Slot, Table, Target, header,
     setpoints,
@@ -74,7 +75,7 @@ impl Run {
     pub fn step(&mut self, p: &Program, id: ActivityId, base: Slot) -> Status {
         let activity = &p.activities[id as usize];
         self.live_a_tick(p, activity, base);
-        if self.aborts(p, activity, base) {
+        if self.aborts(p, id, base) {
             return Status::Running;
         }
         self.step_overlays(p, activity, base);
@@ -111,14 +112,19 @@ impl Run {
         self.execute(p, activity.refresh, base);
     }
 
-    fn aborts(&mut self, p: &Program, activity: &Activity, base: Slot) -> bool {
+    fn aborts(&mut self, p: &Program, id: ActivityId, base: Slot) -> bool {
+        let activity = &p.activities[id as usize];
         // Rule 17: the recovery runs without them.
         if matches!(self.state.phase, Phase::Recovering(..)) {
             return false;
         }
-        for abort in &activity.aborts {
+        for (at, abort) in activity.aborts.iter().enumerate() {
             self.execute(p, abort.condition.entry, base);
-            if self.get(base + abort.condition.value) != 0.0 {
+            let holds = self.get(base + abort.condition.value) != 0.0;
+            if self.tried.is_some() {
+                self.note_tried(p, Condition::Abort(id, at as u32), false, holds, base);
+            }
+            if holds {
                 self.abort = Some(self.filled(&p.texts[abort.why as usize], base, p));
                 return true;
             }
@@ -179,7 +185,11 @@ impl Run {
             let guard = if done { exit.guard_done } else { Some(exit.guard) };
             let Some(guard) = guard else { continue };
             self.execute(p, guard.entry, base);
-            if self.get(base + guard.value) != 0.0 {
+            let holds = self.get(base + guard.value) != 0.0;
+            if self.tried.is_some() {
+                self.note_tried(p, Condition::Exit(entry.activity, i as u32), done, holds, base);
+            }
+            if holds {
                 return self.switch(p, activity, table, base, active, i as u32, done);
             }
         }
@@ -216,11 +226,7 @@ impl Run {
         let entry: &Entry = &table.behaviors[from as usize];
         let exit: &Exit = &entry.exits[exit_index as usize];
         let rule = &p.rules[exit.rule as usize];
-        let mut values = Vec::new();
-        for watched in &exit.watched {
-            self.execute(p, watched.code.entry, base);
-            values.extend_from_slice(self.slice(base + watched.code.value, watched.shape.words()));
-        }
+        let mut values = self.values(p, &exit.watched, base);
         let back = rule.back && rule.target != Target::Behavior(from);
         if back && exit.guard_done.is_some() {
             values.push(f64::from(u8::from(done)));

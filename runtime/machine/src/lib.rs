@@ -29,6 +29,7 @@ mod sinking;
 mod slope;
 mod state;
 mod tell;
+mod tried;
 mod trig;
 
 pub use allowance::{LINE_BYTES, LINES_A_TICK_MAX, LINES_AT_ONCE_MAX, TEXT_BYTES_MAX};
@@ -38,3 +39,4 @@ pub use execute::Evaluation;
 pub use inputs::MissingInput;
 pub use mission::Machine;
 pub use state::{ControlRequest, Phase, State};
+pub use tried::{Condition, Tried};

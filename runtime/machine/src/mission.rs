@@ -10,6 +10,7 @@ use crate::lift::Lift;
 use crate::rest::Rest;
 use crate::sinking::Sinking;
 use crate::state::{Asked, ControlRequest, Declared, Limits, Overridden, Phase, Requirement, Run, State};
+use crate::tried::Tried;
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::{Heading, Point};
@@ -79,6 +80,7 @@ impl Run {
             deserted: None,
             asks: false,
             requests: Vec::new(),
+            tried: None,
             amenders: Vec::new(),
             amenders_known: false,
             senses: senses(p),
@@ -232,6 +234,13 @@ impl Machine {
         }
         run.state.tick += 1;
         command
+    }
+
+    /// A tick as any other, and every condition that decided in it: the rules and aborts that were tried, in their order.
+    pub fn step_asked(&mut self, snapshot: &Snapshot) -> (Option<Command>, Vec<Tried>) {
+        self.run.tried = Some(Vec::new());
+        let command = self.step(snapshot);
+        (command, self.run.tried.take().unwrap_or_default())
     }
 
     /// Ends the mission because the person or the host says so; gives what happened.

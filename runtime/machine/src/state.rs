@@ -8,6 +8,7 @@ use crate::lift::Lift;
 use crate::payload::{Question, Request};
 use crate::rest::Rest;
 use crate::sinking::Sinking;
+use crate::tried::Tried;
 use crate::trig::Trig;
 use crate::{Event, Outcome};
 use albacore_geometry::Heading;
@@ -249,6 +250,8 @@ pub(crate) struct Run {
     pub asks: bool,
     /// What payloads are asked in this tick.
     pub requests: Vec<Request>,
+    /// The conditions that were tried in this tick, while somebody asks for them.
+    pub tried: Option<Vec<Tried>>,
     /// The overlays that amend the course, in their order, with the bases of their wearers' frames; and whether they are known: what is
     /// entered or left makes an event.
     pub amenders: Vec<(u32, Slot)>,

@@ -132,6 +132,19 @@ pub struct Exit {
     pub guard_done: Option<Code>,
     /// What the trace prints of the guard.
     pub watched: Vec<WatchedCode>,
+    /// What the guard is made of.
+    pub terms: Option<Terms>,
+    /// The same when the body has come to its end.
+    pub terms_done: Option<Terms>,
+}
+
+/// What a condition of several terms is made of, for whoever asks why it held or did not: a run does not execute it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Terms {
+    /// The condition once more. It leaves a word for each term: 1 if that held, 0 if not, -1 if those before it had decided.
+    pub code: Code,
+    /// Each term as it is written, and whether another term holds it over time: `a` of `a for 3 s`.
+    pub texts: Vec<(String, bool)>,
 }
 
 /// A switching rule.
@@ -161,10 +174,18 @@ pub enum Target {
 }
 
 /// `abort "why" on X`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Abort {
+    /// The condition as it is written.
+    pub text: String,
+    /// `file:line`.
+    pub place: String,
     /// The condition.
     pub condition: Code,
+    /// The names in it and their values.
+    pub watched: Vec<WatchedCode>,
+    /// What it is made of.
+    pub terms: Option<Terms>,
     /// Index into [`crate::Program::texts`].
     pub why: u32,
 }

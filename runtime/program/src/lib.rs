@@ -20,7 +20,7 @@ mod verify;
 
 pub use activity::{
     Abort, Activity, ActivityId, ActivityKind, Body, CallSite, Entry, Exit, OverlaySite, ReportSite, Rule, Table,
-    Target, Text, TextPart, Valued, Watched, WatchedCode, header,
+    Target, Terms, Text, TextPart, Valued, Watched, WatchedCode, header,
 };
 pub use cause::{ANSWER_WORDS, Cause, OverrideEnd};
 pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
@@ -38,7 +38,7 @@ use albacore_geometry::Geodetic;
 use serde::{Deserialize, Serialize};
 
 /// The version of this form. A journal of another version is not resumed.
-pub const PROGRAM_VERSION: u32 = 16;
+pub const PROGRAM_VERSION: u32 = 17;
 
 /// A whole mission, ready to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

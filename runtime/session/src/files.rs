@@ -293,13 +293,13 @@ fn parent(path: &Path) -> PathBuf {
     }
 }
 
-fn stdlib(name: &str) -> Option<Source> {
+pub(crate) fn stdlib(name: &str) -> Option<Source> {
     let (name, text) = STDLIB.iter().find(|(n, _)| *n == name)?;
     Some(Source { name: format!("stdlib/{name}.alb").into(), text: (*text).into() })
 }
 
 /// Whether a module is one of the standard library, and no script that lies where one of them would.
-fn is_standard(source: &Source) -> bool {
+pub(crate) fn is_standard(source: &Source) -> bool {
     let name = source.name.strip_prefix("stdlib/").and_then(|file| file.strip_suffix(".alb"));
     name.and_then(stdlib).is_some_and(|standard| standard.text == source.text)
 }

@@ -2,6 +2,7 @@
 
 use crate::compatibility::{self, Held};
 use crate::faults::Faults;
+use crate::kept;
 use crate::scenario;
 use crate::wanted::Wanted;
 use albacore_geometry::{Area, Geodetic, Point, TangentFrame};
@@ -14,7 +15,7 @@ use albacore_machine::Chart;
 use albacore_program::Program;
 use albacore_sim::{Bottom, Environment, Fault, Ground, Scenario};
 use albacore_trace::Digest;
-use albacore_trace::journal::SourceDigest;
+use albacore_trace::journal::{KeptScript, SourceDigest, World};
 use std::fmt::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -32,6 +33,10 @@ pub struct Plan {
     pub scenario_script: Option<SourceDigest>,
     /// What both were made from.
     pub sources: Vec<SourceDigest>,
+    /// The texts of the mission's scripts, for the journal.
+    pub(crate) scripts: Arc<[KeptScript]>,
+    /// What it runs in, for the journal.
+    pub(crate) world: Arc<World>,
     /// What the one may miss in the other, with places in the mission's script.
     pub warnings: Vec<Diagnostic>,
     /// The scenario's own positions on the globe.
@@ -92,7 +97,7 @@ impl Plan {
 
     /// What both were made from, by names as seen from the folder of the script: equal runs leave equal journals, wherever the files
     /// lie and however their paths were written.
-    pub(crate) fn sources_from_script(&self) -> Vec<SourceDigest> {
+    pub fn sources_from_script(&self) -> Vec<SourceDigest> {
         let script = self.sources.first().map_or("", |source| source.name.as_str());
         let folder = Path::new(script).parent().unwrap_or(Path::new(""));
         let named = |source: &SourceDigest| SourceDigest { name: seen_from(folder, &source.name), ..source.clone() };
@@ -126,17 +131,29 @@ impl Plan {
             None => Plan::with(script, program, &scenario),
             Some((file, scenario)) => {
                 let other = other_script(file, scenario, wanted)?;
-                let plan = Plan::with(&other, program, scenario)?;
-                // The file may be the mission's own, or import what that imports.
-                let mut sources = sources(script);
-                for source in plan.sources {
-                    if sources.iter().all(|known| *known != source) {
-                        sources.push(source);
-                    }
-                }
-                Ok(Plan { sources, ..plan })
+                Plan::in_world_of(&other, script, program, scenario)
             }
         }
+    }
+
+    /// The same in a scenario of another script.
+    pub(crate) fn in_world_of(
+        other: &Script,
+        script: &Script,
+        program: Arc<Program>,
+        scenario: &str,
+    ) -> Result<Self, PlanError> {
+        let plan = Plan::with(other, program, scenario)?;
+        // The file may be the mission's own, or import what that imports.
+        let mut sources = sources(script);
+        for source in plan.sources {
+            if sources.iter().all(|known| *known != source) {
+                sources.push(source);
+            }
+        }
+        let scripts = kept::scripts(script);
+        let world = Arc::new(World::Scenario(plan.scripts.to_vec()));
+        Ok(Plan { sources, scripts, world, ..plan })
     }
 
     /// The same, if its world has what its mission needs.
@@ -183,7 +200,7 @@ impl Plan {
             None => None,
         };
         let (program, scenario) = (Arc::new(program), Arc::new(Scenario::default()));
-        let (scenario_name, sources) = (link.to_string(), sources(script));
+        let (scenario_name, sources, scripts) = (link.to_string(), sources(script), kept::scripts(script));
         let (warnings, places, scenario_script) = (Vec::new(), Vec::new(), None);
         Ok(Plan {
             program,
@@ -191,6 +208,8 @@ impl Plan {
             scenario_name,
             scenario_script,
             sources,
+            scripts,
+            world: Arc::new(World::Link),
             warnings,
             places,
             survey,
@@ -236,7 +255,7 @@ impl Plan {
         let survey = survey(&understood.world);
         let (scenario, scenario_name) = (Arc::new(understood.world), lowered.name);
         let sources = sources(script).into_iter().chain(understood.files).collect();
-        let (places, warnings) = (lowered.places, Vec::new());
+        let (scripts, places, warnings) = (kept::scripts(script), lowered.places, Vec::new());
         let scenario_script = Some(digest(script, lowered.span.file));
         Ok(Plan {
             program,
@@ -244,6 +263,8 @@ impl Plan {
             scenario_name,
             scenario_script,
             sources,
+            scripts,
+            world: Arc::new(World::Scenario(Vec::new())),
             warnings,
             places,
             survey,
@@ -262,7 +283,7 @@ fn other_script(file: &str, scenario: &str, wanted: &Wanted) -> Result<Script, P
 }
 
 /// The mission that is meant, by its name, and ready to run.
-fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String, Program), PlanError> {
+pub(crate) fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String, Program), PlanError> {
     let names: Vec<&str> = script.missions().map(|m| m.name.as_str()).collect();
     let stem = Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let name = match mission {
@@ -295,7 +316,7 @@ fn chosen(script: &Script, file: &str, mission: Option<&str>) -> Result<(String,
 }
 
 /// What a file is called, seen from a folder: by its name alone where it lies elsewhere.
-fn seen_from(folder: &Path, name: &str) -> String {
+pub(crate) fn seen_from(folder: &Path, name: &str) -> String {
     let path = Path::new(name);
     let inside = path.strip_prefix(folder).ok().or(path.file_name().map(Path::new));
     inside.map_or_else(|| name.to_string(), |inside| inside.display().to_string())

@@ -82,6 +82,8 @@ impl Run {
             set: set.to_vec(),
             measurements: self.driver.vehicle().measurements().to_vec(),
             start: self.memory.results.start,
+            scripts: plan.scripts.to_vec(),
+            world: (*plan.world).clone(),
         }
     }
 

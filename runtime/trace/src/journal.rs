@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 /// The version of this form: one more whenever a record, or what a record holds (such as a snapshot, an event or [`State`]),
 /// is laid out otherwise. Postcard's form names no fields, and would read the older as something else.
-pub const JOURNAL_VERSION: u32 = 5;
+pub const JOURNAL_VERSION: u32 = 6;
 
 /// How every journal begins.
 const MAGIC: [u8; 4] = *b"ALBJ";
@@ -59,6 +59,31 @@ pub struct JournalHeader {
     pub measurements: Vec<Measurement>,
     /// Where the vehicle starts, where that is known.
     pub start: Option<Point>,
+    /// The texts of the scripts, so that what was run is known when the files have changed: the mission's and its project's, of which
+    /// the first is the script itself. The standard library is in every albacore, and files of data are where they were.
+    pub scripts: Vec<KeptScript>,
+    /// What it ran in.
+    pub world: World,
+}
+
+/// A script as it was.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptScript {
+    /// What it is called in messages.
+    pub name: String,
+    /// Its path from the project's folder without its ending, as `use` gives it: `worlds/bay`.
+    pub module: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// What a mission ran in.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum World {
+    /// A scenario: of the mission's script or the standard library, or of another script, whose texts these are.
+    Scenario(Vec<KeptScript>),
+    /// A vehicle at the end of a link.
+    Link,
 }
 
 /// A source file by its name and the digest of its text, so that a replay can say which of them has changed since.

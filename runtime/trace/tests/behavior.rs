@@ -40,7 +40,7 @@ fn exit(rule: u32, watched: &[(&str, Shape)]) -> Exit {
         .iter()
         .map(|(name, shape)| WatchedCode { name: name.to_string(), code, shape: shape.clone() })
         .collect();
-    Exit { rule, guard: code, guard_done: None, watched }
+    Exit { rule, guard: code, guard_done: None, watched, terms: None, terms_done: None }
 }
 
 /// A mission with a cage that calls a strategy of three behaviors, the first of which calls another.

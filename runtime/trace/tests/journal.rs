@@ -23,6 +23,12 @@ fn header() -> JournalHeader {
             Measurement { name: "chemical".into(), width: 1 },
         ],
         start: Some(Point::new(3.0, -4.0)),
+        scripts: vec![KeptScript {
+            name: "box.alb".into(),
+            module: "missions/box".into(),
+            text: "mission box {}".into(),
+        }],
+        world: World::Scenario(Vec::new()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where the machine begins to execute.
 
-use crate::{Activity, Addr, Body, Code, ListOp, Op, Program, Target};
+use crate::{Activity, Addr, Body, Code, ListOp, Op, Program, Target, Terms, WatchedCode};
 use std::collections::BTreeSet;
 
 impl Program {
@@ -45,7 +45,10 @@ impl Program {
 
 fn pieces_of(activity: &Activity, pieces: &mut BTreeSet<Addr>) {
     pieces.extend([activity.entry, activity.refresh, activity.reactions]);
-    pieces.extend(activity.aborts.iter().map(|abort| abort.condition.entry));
+    for abort in &activity.aborts {
+        pieces.insert(abort.condition.entry);
+        pieces.extend(told(&abort.watched, &abort.terms));
+    }
     match &activity.body {
         Body::Sequence(at) => _ = pieces.insert(*at),
         Body::Amend { amended, .. } => _ = pieces.insert(amended.entry),
@@ -53,9 +56,14 @@ fn pieces_of(activity: &Activity, pieces: &mut BTreeSet<Addr>) {
             for behavior in &table.behaviors {
                 pieces.extend([behavior.arm, behavior.watch]);
                 for exit in &behavior.exits {
-                    pieces.extend(exit.watched.iter().map(|watched| watched.code.entry));
+                    pieces.extend(told(&exit.watched, &exit.terms).chain(told(&[], &exit.terms_done)));
                 }
             }
         }
     }
+}
+
+/// What is only told of a condition.
+fn told<'a>(watched: &'a [WatchedCode], terms: &'a Option<Terms>) -> impl Iterator<Item = Addr> + 'a {
+    watched.iter().map(|watched| watched.code.entry).chain(terms.iter().map(|terms| terms.code.entry))
 }

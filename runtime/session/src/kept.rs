@@ -1,0 +1,148 @@
+//! Scripts as a journal keeps them: what was run can be read again when its files have changed.
+
+use crate::files::{Files, is_standard, stdlib};
+use crate::plan::{Plan, PlanError, chosen, seen_from};
+use crate::wanted::Wanted;
+use albacore_lang::source::Source;
+use albacore_lang::{FileFault, Library, Prelude, Script};
+use albacore_trace::journal::{JournalHeader, KeptScript, World};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Of larger scripts no text is kept: a record of the journal has its bound.
+const KEPT_BYTES_MAX: usize = 6 << 20;
+
+/// The texts of a script and of what it imports of its project.
+pub(crate) fn scripts(script: &Script) -> Arc<[KeptScript]> {
+    let files = Files::of(script);
+    let entry = script.sources.iter().next().map_or("", |source| &source.name);
+    let folder = Path::new(entry).parent().unwrap_or(Path::new(""));
+    let is_kept = |source: &&Source| !is_standard(source) && source.name.ends_with(".alb");
+    let kept = script.sources.iter().filter(is_kept).map(|source| {
+        let path = Path::new(&*source.name);
+        let inside = path.strip_prefix(files.root()).unwrap_or(path).with_extension("");
+        let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+        KeptScript { name: seen_from(folder, &source.name), module: parts.join("/"), text: source.text.to_string() }
+    });
+    let kept: Arc<[KeptScript]> = kept.collect();
+    let bytes: usize = kept.iter().map(|script| script.text.len()).sum();
+    if bytes > KEPT_BYTES_MAX { Arc::default() } else { kept }
+}
+
+/// The scripts of a journal, and beside them the files of data of a project, which no journal holds.
+struct KeptFiles<'a> {
+    scripts: &'a [KeptScript],
+    data: &'a Files,
+}
+
+impl Library for KeptFiles<'_> {
+    fn prelude(&self) -> &Prelude {
+        self.data.prelude()
+    }
+
+    fn module(&self, importer: &Source, path: &[String]) -> Result<Source, String> {
+        let standard = || path.first().filter(|_| path.len() == 1).and_then(|name| stdlib(name));
+        if is_standard(importer)
+            && let Some(source) = standard()
+        {
+            return Ok(source);
+        }
+        let module = path.join("/");
+        match self.scripts.iter().find(|script| script.module == module) {
+            Some(script) => Ok(self.source(script)),
+            None => standard().ok_or_else(|| "the journal does not hold it".to_string()),
+        }
+    }
+
+    fn data_file(&self, path: &str, bytes_max: u64) -> Result<Vec<u8>, FileFault> {
+        self.data.data_file(path, bytes_max)
+    }
+}
+
+impl KeptFiles<'_> {
+    /// A script under the name that it would have in the project, from which its files of data are looked for.
+    fn source(&self, script: &KeptScript) -> Source {
+        let file = format!("{}.alb", script.module);
+        let root = Some(self.data.root()).filter(|root| *root != Path::new("."));
+        let name = root.map_or_else(|| file.clone(), |root| root.join(&file).display().to_string());
+        Source { name: name.into(), text: script.text.as_str().into() }
+    }
+}
+
+/// What is changed for a replay.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Changes<'a> {
+    /// Another script than the journal's, or the same as it is by now.
+    pub script: Option<&'a Path>,
+    /// Its mission; else that of the journal.
+    pub mission: Option<&'a str>,
+    /// Parameters, after those that were changed for the run.
+    pub set: &'a [String],
+    /// A file of the project, which need not be there: files of data that scripts read are looked for in its project.
+    pub beside: Option<&'a Path>,
+}
+
+impl Changes<'_> {
+    /// Whether nothing is changed.
+    pub fn is_empty(&self) -> bool {
+        self.script.is_none() && self.mission.is_none() && self.set.is_empty()
+    }
+}
+
+impl Plan {
+    /// The plan of a run by what its journal tells of it, with changes; and its script.
+    pub fn of_journal(header: &JournalHeader, changes: &Changes) -> Result<(Script, Self), PlanError> {
+        let is_fault = |text: &&String| text.starts_with("--fault ");
+        let set: Vec<String> = header.set.iter().filter(|text| !is_fault(text)).chain(changes.set).cloned().collect();
+        let mission = changes.mission.unwrap_or(&header.mission);
+        let files = Files::around(changes.beside.unwrap_or(Path::new("")));
+        let (scenario, of_world): (_, &[KeptScript]) = match &header.world {
+            World::Scenario(scripts) => (header.scenario.as_str(), scripts),
+            World::Link => ("", &[]),
+        };
+        let named = format!("elsewhere#{scenario}");
+        let wanted = Wanted {
+            mission: Some(mission),
+            scenario: match header.world {
+                World::Scenario(_) if of_world.is_empty() => Some(scenario),
+                World::Scenario(_) => Some(&named),
+                World::Link => None,
+            },
+            set: &set,
+        };
+        let (own, others) = wanted.parted();
+        let script = match changes.script {
+            Some(path) => {
+                crate::load_for(path, &wanted).map_err(|error| PlanError::Asked(error.message, error.help))?
+            }
+            None => load_kept(&header.scripts, &files, &wanted.of_script(&own))?,
+        };
+        let script = is_sound(script)?;
+        let file = script.sources.iter().next().map_or_else(String::new, |source| source.name.to_string());
+        let plan = match &header.world {
+            World::Link => Plan::on_link(&script, &file, Some(mission), &header.scenario)?,
+            World::Scenario(scripts) if scripts.is_empty() => Plan::unsuited(&script, &file, &wanted)?,
+            World::Scenario(scripts) => {
+                let world = Wanted { mission: None, scenario: Some(scenario), set: &others };
+                let other = is_sound(load_kept(scripts, &files, &world.of_script(&others))?)?;
+                let (_, program) = chosen(&script, &file, Some(mission))?;
+                Plan::in_world_of(&other, &script, Arc::new(program), scenario)?
+            }
+        };
+        Ok((script, plan))
+    }
+}
+
+/// Reads and checks the first of some scripts.
+fn load_kept(scripts: &[KeptScript], data: &Files, wanted: &albacore_lang::Wanted) -> Result<Script, PlanError> {
+    let Some(first) = scripts.first() else {
+        let help = "name the script with `--script`; texts of more than 6 MiB are not kept";
+        return Err(PlanError::Asked("the journal does not hold its script".into(), Some(help.into())));
+    };
+    let files = KeptFiles { scripts, data };
+    Ok(albacore_lang::load_for(files.source(first), &files, wanted))
+}
+
+fn is_sound(script: Script) -> Result<Script, PlanError> {
+    if script.is_sound() { Ok(script) } else { Err(PlanError::script(script.findings.clone(), &script)) }
+}

@@ -1,0 +1,101 @@
+//! A run that is over, as it is named on a command line: its folder, or the journal in it.
+
+use crate::clock::Utc;
+use crate::exit::Exit;
+use crate::plan::refused;
+use crate::run_folder::{JOURNAL, LEFT_BYTES_MAX, RECORD};
+use crate::{message, run_folder};
+use albacore_session::journal::{JournalHeader, Reader};
+use albacore_session::{Changes, Plan, Script, read_file};
+use std::path::{Path, PathBuf};
+
+/// So many folders are named in a message at most.
+const NAMED_MAX: usize = 5;
+
+/// A journal that was read, and what beside it tells of the run.
+pub struct PastJournal {
+    /// The folder or the file, as it was named.
+    pub path: PathBuf,
+    /// All of its bytes.
+    pub bytes: Vec<u8>,
+    /// What was run.
+    pub header: JournalHeader,
+    /// When its first tick was, if its record tells.
+    pub first_tick: Option<Utc>,
+    /// The script as it was named when it was run.
+    script: Option<PathBuf>,
+}
+
+impl PastJournal {
+    /// Reads the journal of a run, or says what is wrong.
+    pub fn open(path: &Path) -> Result<Self, Exit> {
+        let journal = if path.is_dir() { path.join(JOURNAL) } else { path.to_path_buf() };
+        if path.is_dir() && journal.symlink_metadata().is_err() {
+            let help = runs_in(path);
+            message::error(&format!("`{}` holds no run: there is no `{JOURNAL}` in it", path.display()), Some(&help));
+            return Err(Exit::Usage);
+        }
+        let bytes = read_file(&journal, LEFT_BYTES_MAX).map_err(|unread| {
+            let help = "name the folder of a run, or the journal in it: `albacore run` tells where it is";
+            message::error(&format!("`{}` cannot be read: {unread}", journal.display()), Some(help));
+            Exit::Usage
+        })?;
+        let header = match Reader::new(&bytes) {
+            Ok(reader) => reader.header().clone(),
+            Err(unreadable) => {
+                message::error(&format!("`{}`: {unreadable}", journal.display()), None);
+                return Err(Exit::Failed);
+            }
+        };
+        let told = run_folder::told(&journal.with_file_name(RECORD));
+        let first_tick = told["first_tick"].as_str().and_then(Utc::read);
+        let script = told["scripts"][0]["name"].as_str().map(PathBuf::from).filter(|script| script.is_file());
+        Ok(PastJournal { path: path.to_path_buf(), bytes, header, first_tick, script })
+    }
+
+    /// Reads it from its beginning.
+    pub fn reader(&self) -> Result<Reader<'_>, Exit> {
+        Reader::new(&self.bytes).map_err(|unreadable| {
+            message::error(&unreadable.to_string(), None);
+            Exit::Failed
+        })
+    }
+
+    /// The script and the plan of the run as it was; what in the way of that is said.
+    pub fn plan(&self, project: Option<&Path>) -> Result<(Script, Plan), Exit> {
+        self.changed(&Changes::default(), project)
+    }
+
+    /// The same with changes.
+    pub fn changed(&self, changes: &Changes, project: Option<&Path>) -> Result<(Script, Plan), Exit> {
+        let named = project.map(|folder| folder.join("script.alb"));
+        let changes = Changes { beside: named.as_deref().or(self.script.as_deref()), ..*changes };
+        Plan::of_journal(&self.header, &changes).map_err(|error| refused(&error))
+    }
+
+    /// What the run was made from that is other by now, by name: files of data, and modules of the standard library.
+    pub fn changed_since(&self, plan: &Plan) -> Vec<String> {
+        let now = plan.sources_from_script();
+        let is_other = |source: &&albacore_session::SourceDigest| {
+            let named = now.iter().filter(|known| known.name == source.name);
+            let mut digests = named.map(|known| known.digest).peekable();
+            digests.peek().is_some() && digests.all(|digest| digest != source.digest)
+        };
+        self.header.sources.iter().filter(is_other).map(|source| source.name.clone()).collect()
+    }
+}
+
+/// The runs in the folders of a folder, to be named in a help.
+fn runs_in(folder: &Path) -> String {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut runs: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(|path| path.join(JOURNAL).exists()).collect();
+    runs.sort();
+    runs.reverse();
+    let named: Vec<String> = runs.iter().take(NAMED_MAX).map(|run| format!("`{}`", run.display())).collect();
+    match named.as_slice() {
+        [] => "name the folder of a run: `albacore run` tells where it is".to_string(),
+        [only] => format!("did you mean {only}?"),
+        several if runs.len() > NAMED_MAX => format!("its last runs are {}", several.join(", ")),
+        several => format!("its runs are {}", several.join(", ")),
+    }
+}
