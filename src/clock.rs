@@ -61,12 +61,17 @@ impl Utc {
         Utc::of(later.unwrap_or(self.0))
     }
 
-    /// Seconds since another moment; less than 0 if it is earlier.
-    pub fn since(self, other: Utc) -> f64 {
-        match self.0.duration_since(other.0) {
-            Ok(later) => later.as_secs_f64(),
-            Err(earlier) => -earlier.duration().as_secs_f64(),
-        }
+    /// Seconds since midnight.
+    pub fn second_of_day(self) -> f64 {
+        const DAY_S: u64 = 86_400;
+        let since = self.0.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        (since.as_secs() % DAY_S) as f64 + f64::from(since.subsec_millis()) / 1000.0
+    }
+
+    /// `14:31:05Z`.
+    pub fn time_of_day(self) -> String {
+        let text = humantime::format_rfc3339_seconds(self.0).to_string();
+        text.split_once('T').map_or(text.clone(), |(_, time)| time.to_string())
     }
 
     /// `2026-11-22T10-31-05Z`: no file system minds it, and names are in the order of time.

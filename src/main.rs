@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod clock;
 mod completions;
+mod diff;
 mod disk;
 mod doc;
 mod exit;
@@ -14,6 +15,7 @@ mod interruption;
 mod live;
 mod made;
 mod message;
+mod moment;
 mod new;
 mod output;
 mod past;
@@ -28,6 +30,7 @@ mod speaker;
 mod synced;
 mod test;
 mod vehicle;
+mod why;
 mod zoom;
 
 use albacore_session::seen::one_line;
@@ -62,6 +65,10 @@ enum Verb {
     ///
     /// The machine is fed with the samples of the journal: bit for bit the same, or, with another script or parameter, until it does otherwise.
     Replay(replay::ReplayRun),
+    /// Explain what a run decided: every switch, hold and abort, or what held at a time.
+    Why(why::Why),
+    /// Tell how two runs differ: what was done otherwise, and when.
+    Diff(diff::Diff),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -114,6 +121,8 @@ fn main() -> ExitCode {
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Replay(replay) => replay.run(),
+        Verb::Why(why) => why.run(),
+        Verb::Diff(diff) => diff.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::plan::refused;
 use crate::run_folder::{JOURNAL, LEFT_BYTES_MAX, RECORD};
 use crate::{message, run_folder};
-use albacore_session::journal::{JournalHeader, Reader};
-use albacore_session::{Changes, Plan, Script, read_file};
+use albacore_session::journal::{Ending, JournalHeader, Reader};
+use albacore_session::{Changes, PastRun, Plan, Script, read_file};
 use std::path::{Path, PathBuf};
 
 /// So many folders are named in a message at most.
@@ -70,11 +70,44 @@ impl PastJournal {
     pub fn changed(&self, changes: &Changes, project: Option<&Path>) -> Result<(Script, Plan), Exit> {
         let named = project.map(|folder| folder.join("script.alb"));
         let changes = Changes { beside: named.as_deref().or(self.script.as_deref()), ..*changes };
-        Plan::of_journal(&self.header, &changes).map_err(|error| refused(&error))
+        let (script, plan) = Plan::of_journal(&self.header, &changes).map_err(|error| refused(&error))?;
+        if !changes.is_empty() {
+            message::findings(&script.findings, &script.sources);
+        }
+        Ok((script, plan))
+    }
+
+    /// The run, as what it left tells of it; what is not as it should be is said.
+    pub fn past_run(&self, project: Option<&Path>) -> Result<PastRun, Exit> {
+        let (_, plan) = self.plan(project)?;
+        self.warn_of_changes(&plan);
+        let run = PastRun::read(&plan, &self.bytes).map_err(|unreadable| {
+            message::error(&format!("`{}`: {unreadable}", self.path.display()), None);
+            Exit::Failed
+        })?;
+        self.warn_of_end(run.ending());
+        Ok(run)
+    }
+
+    /// Warns of what the run was made from that is other by now.
+    pub fn warn_of_changes(&self, plan: &Plan) {
+        for name in self.changed_since(plan) {
+            message::warning(&format!("`{name}` is not what it was in the run"), "what is told is of what it is now");
+        }
+    }
+
+    /// Warns of a journal without its end.
+    pub fn warn_of_end(&self, ending: &Ending) {
+        let (how, flaw) = match ending {
+            Ending::Complete(_) => return,
+            Ending::CutShort(flaw) => ("cut short", flaw),
+            Ending::Damaged(flaw) => ("damaged", flaw),
+        };
+        message::warning(&format!("the journal is {how} {flaw}"), "what is told is of all before that");
     }
 
     /// What the run was made from that is other by now, by name: files of data, and modules of the standard library.
-    pub fn changed_since(&self, plan: &Plan) -> Vec<String> {
+    fn changed_since(&self, plan: &Plan) -> Vec<String> {
         let now = plan.sources_from_script();
         let is_other = |source: &&albacore_session::SourceDigest| {
             let named = now.iter().filter(|known| known.name == source.name);

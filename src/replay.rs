@@ -1,15 +1,19 @@
 //! `albacore replay`: a run once more, on what its vehicle sensed.
 
 use crate::exit::Exit;
-use crate::message;
-use crate::output::Lines;
+use crate::output::{self, Lines};
 use crate::past::PastJournal;
 use crate::plan::refused;
-use albacore_session::journal::Ending;
-use albacore_session::{Changes, Repeated, repeat};
+use crate::why::tell_conditions;
+use albacore_session::{Changes, DeedDifference, Departure, Parting, Repeated, depart, repeat};
 use std::path::PathBuf;
 
+/// So many differences are told at most.
+const TOLD_MAX: usize = 20;
+
 /// Run a mission again on what its vehicle sensed, as it was or with changes.
+///
+/// The exit code is 0 when the replay does the same, and 1 when it departs from the run.
 #[derive(clap::Args)]
 pub struct ReplayRun {
     /// The folder of the run, or its journal.
@@ -23,6 +27,9 @@ pub struct ReplayRun {
     /// Change a parameter: `lambda=6s`, `cpt_2005.beta=30deg`.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
     /// The folder of the project, where files of data are that the script reads; else where it was run.
     #[arg(long, value_name = "FOLDER")]
     project: Option<PathBuf>,
@@ -44,34 +51,88 @@ impl ReplayRun {
             set: &self.set,
             ..Changes::default()
         };
-        for name in past.changed_since(&original) {
-            message::warning(&format!("`{name}` is not what it was in the run"), "the replay is of what it is now");
-        }
+        past.warn_of_changes(&original);
         if changes.is_empty() {
             let repeated = repeat(past.reader()?, &original).map_err(|error| refused(&error))?;
-            return Ok(tell(&repeated));
+            match self.json {
+                true => output::print_json(&repeated),
+                false => tell_repeated(&repeated),
+            }
+            past.warn_of_end(&repeated.ending);
+            return Ok(if repeated.is_same() { Exit::Well } else { Exit::NotWell });
         }
-        Ok(Exit::Well)
+        let (_, changed) = past.changed(&changes, project)?;
+        let departure = depart(&past.bytes, &original, &changed).map_err(|error| refused(&error))?;
+        match self.json {
+            true => output::print_json(&departure),
+            false => tell_departure(&departure),
+        }
+        past.warn_of_end(&departure.ending);
+        Ok(if departure.decided.is_none() { Exit::Well } else { Exit::NotWell })
     }
 }
 
-fn tell(repeated: &Repeated) -> Exit {
+fn tell_repeated(repeated: &Repeated) {
     let mut lines = Lines::default();
-    let mut exit = Exit::Well;
+    let ticks = repeated.ticks;
     match repeated.differs_at {
-        None => lines.add(&format!("{} ticks replayed: the same to the bit", repeated.ticks)),
-        Some(tick) => {
-            lines.add(&format!("{} ticks replayed: otherwise from {:.1} s on", repeated.ticks, tick as f64 / 10.0));
-            exit = Exit::NotWell;
-        }
+        None => lines.add(&format!("{ticks} ticks replayed: the same to the bit")),
+        Some(tick) => lines.add(&format!("{ticks} ticks replayed: not the same from {:.1} s on", seconds(tick))),
     }
-    match &repeated.ending {
-        Ending::Complete(end) => {
-            let digest = end.ending().map_or(0, |ending| ending.digest);
-            lines.add(&format!("digest {:016x}, the run's {digest:016x}", repeated.digest));
-        }
-        Ending::CutShort(flaw) | Ending::Damaged(flaw) => lines.add(&format!("the journal ends {flaw}")),
+    if repeated.has_gaps {
+        lines.add("ticks are missing in the journal: behind each the replay goes on from a checkpoint, and its digest is not the run's");
+    } else if let Some(digest) = repeated.run_digest() {
+        lines.add(&format!("digest {:016x}, the run's {digest:016x}", repeated.digest));
     }
     lines.print();
-    exit
+}
+
+fn tell_departure(departure: &Departure) {
+    let mut lines = Lines::default();
+    lines.add(&format!("{} ticks replayed with changes", departure.ticks));
+    match &departure.commanded {
+        None => lines.add("the same commands to the end"),
+        Some((tick, [run, replay])) => {
+            lines.add(&format!("other commands from {:.1} s on", seconds(*tick)));
+            lines.add(&format!("  run     {run}"));
+            lines.add(&format!("  replay  {replay}"));
+        }
+    }
+    match &departure.decided {
+        None => lines.add("the same behavior to the end"),
+        Some(parting) => tell_parting(parting, &mut lines),
+    }
+    let later = departure.deeds.iter().map(DeedDifference::line);
+    let (told, more) = (TOLD_MAX, departure.deeds.len().saturating_sub(TOLD_MAX));
+    if !departure.deeds.is_empty() {
+        lines.add("");
+        lines.add("on what the run's vehicle sensed, which a replay cannot change (- run, + replay):");
+    }
+    later.take(told).for_each(|line| lines.add(&line));
+    if more > 0 {
+        lines.add(&format!("  and {more} more"));
+    }
+    if let Some(tick) = departure.stopped_at {
+        lines.add(&format!(
+            "ticks from {:.1} s on are missing in the journal: a changed mission is not replayed beyond",
+            seconds(tick)
+        ));
+    }
+    lines.print();
+}
+
+fn tell_parting(parting: &Parting, lines: &mut Lines) {
+    lines.add("");
+    lines.add(&format!("other behavior from {:.1} s on", seconds(parting.tick)));
+    for (at, which) in ["run   ", "replay"].into_iter().enumerate() {
+        if parting.lines[at].is_empty() {
+            lines.add(&format!("  {which}  goes on: {}", parting.under_way[at].join(" > ")));
+        }
+        parting.lines[at].iter().for_each(|line| lines.add(&format!("  {which}  {line}")));
+        tell_conditions(&parting.conditions[at], lines);
+    }
+}
+
+fn seconds(tick: u64) -> f64 {
+    tick as f64 / 10.0
 }

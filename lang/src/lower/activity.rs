@@ -308,7 +308,7 @@ impl<'a> Lowering<'a> {
             place: self.sources.place(condition.span),
             condition: Code { entry, value },
             watched: self.watched(id, condition),
-            terms: self.terms(condition),
+            terms: self.terms(id, condition),
             why,
         }
     }

@@ -31,9 +31,9 @@ impl<'a> Lowering<'a> {
             let exits = leaving
                 .into_iter()
                 .map(|(i, rule)| {
-                    let (guard, terms) = (self.code(&rule.on), self.terms(&rule.on));
+                    let (guard, terms) = (self.code(&rule.on), self.terms(id, &rule.on));
                     self.frame.done = true;
-                    let done = mentions_done(&rule.on).then(|| (self.code(&rule.on), self.terms(&rule.on)));
+                    let done = mentions_done(&rule.on).then(|| (self.code(&rule.on), self.terms(id, &rule.on)));
                     self.frame.done = false;
                     let (guard_done, terms_done) = done.map_or((None, None), |(code, terms)| (Some(code), terms));
                     let watched = self.watched(id, &rule.on);
@@ -107,7 +107,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn owner_of(&self, id: usize) -> usize {
+    pub(super) fn owner_of(&self, id: usize) -> usize {
         self.hir.activities[id].owner.unwrap_or(id)
     }
 

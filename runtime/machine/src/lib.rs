@@ -37,6 +37,6 @@ pub use bottom::Chart;
 pub use event::{Event, Heard, Outcome};
 pub use execute::Evaluation;
 pub use inputs::MissingInput;
-pub use mission::Machine;
+pub use mission::{HeardInput, Machine};
 pub use state::{ControlRequest, Phase, State};
 pub use tried::{Condition, Tried};

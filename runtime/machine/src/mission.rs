@@ -26,6 +26,19 @@ pub struct Machine {
     run: Run,
 }
 
+/// What was heard of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeardInput<'a> {
+    /// Its place among the program's inputs.
+    pub at: usize,
+    /// Ticks since its latest sample; none before the first.
+    pub age: Option<f64>,
+    /// The words of that sample.
+    pub words: &'a [f64],
+    /// How many ticks old it may be, where the mission requires it.
+    pub fresh: Option<f64>,
+}
+
 impl Run {
     /// A run that has not begun.
     pub fn new(p: &Program) -> Self {
@@ -178,6 +191,18 @@ impl Machine {
     /// Whether an input, by its index in the program, has had a sample.
     pub fn has_sample(&self, input: u32) -> bool {
         self.program.inputs.get(input as usize).is_some_and(|input| self.run.has_sample(input))
+    }
+
+    /// What was heard of each input by the last tick, in the order of the program.
+    pub fn heard(&self) -> impl Iterator<Item = HeardInput<'_>> {
+        let heard = |(at, input): (usize, &'_ Input)| {
+            let age = self.run.has_sample(input).then(|| self.run.age_ticks(input) - 1.0);
+            let requires = self.program.mission.requires.iter().position(|require| require.input as usize == at);
+            let required = requires.and_then(|at| self.run.state.requires.get(at));
+            let words = self.run.slice(input.at + Input::VALUE, input.width);
+            HeardInput { at, age, words, fresh: required.map(|required| required.fresh) }
+        };
+        self.program.inputs.iter().enumerate().map(heard)
     }
 
     /// The active activities from outside in, with the bases of their frames.

@@ -143,8 +143,9 @@ pub struct Exit {
 pub struct Terms {
     /// The condition once more. It leaves a word for each term: 1 if that held, 0 if not, -1 if those before it had decided.
     pub code: Code,
-    /// Each term as it is written, and whether another term holds it over time: `a` of `a for 3 s`.
-    pub texts: Vec<(String, bool)>,
+    /// Each term as it is written, and how deep it is in terms before it: `a` is in `a for 3 s`, and what a signal is made of in the
+    /// signal.
+    pub texts: Vec<(String, u32)>,
 }
 
 /// A switching rule.

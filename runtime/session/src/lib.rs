@@ -5,6 +5,8 @@ pub mod campaign;
 mod check;
 mod compatibility;
 mod data;
+mod departure;
+mod difference;
 mod faults;
 mod files;
 mod kept;
@@ -26,6 +28,7 @@ mod summary;
 mod tests;
 pub mod threads;
 mod wanted;
+mod why;
 
 pub use albacore_diagram as diagram;
 pub use albacore_lang::code::Code;
@@ -41,9 +44,12 @@ pub use albacore_program::seen;
 pub use albacore_trace::journal;
 pub use albacore_trace::journal::SourceDigest;
 pub use albacore_trace::{Difference, Digest, first_difference, first_foreign_line, same_behavior};
+pub use albacore_trace::{TriedCondition, TriedTerm};
 pub use albacore_wording::nearest;
 pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};
+pub use departure::{Departure, Parting, depart};
+pub use difference::{BehaviorDifference, DeedDifference, End, ReportDifference, RunDifference};
 pub use faults::{Faults, load_faults};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
@@ -64,3 +70,4 @@ pub use shown::{Shown, ShownClause, ValueSource};
 pub use summary::{Report, Summary};
 pub use tests::{Failure, TestResult, TestRun, run_test};
 pub use wanted::Wanted;
+pub use why::{Decision, Explanation, InputAge, Moment, explain};

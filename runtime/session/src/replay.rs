@@ -8,6 +8,7 @@ use albacore_program::Program;
 use albacore_trace::journal::{Ending, Entry, Gap, JournalHeader, Reader};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::Command;
+use serde::Serialize;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -93,8 +94,9 @@ impl<'a> Replay<'a> {
                 step.events.extend_from_slice(self.machine.events());
             }
             Step::End(ending) => {
-                // From outside, or since it lay on the bottom when it was given back.
-                if !is_beyond {
+                // From outside, or since it lay on the bottom when it was given back. A mission that was changed may go on beyond the
+                // end to which the run's own came.
+                if !is_beyond && !step.record.events.is_empty() {
                     step.events.extend_from_slice(self.machine.end(ending.outcome));
                 }
                 if ending.outcome == Outcome::Aground && self.machine.end_aground().is_some() {
@@ -122,6 +124,7 @@ impl Iterator for Replay<'_> {
 }
 
 /// What a replay as it was comes to.
+#[derive(Debug, Serialize)]
 pub struct Repeated {
     /// The ticks that were replayed.
     pub ticks: u64,
@@ -132,7 +135,23 @@ pub struct Repeated {
     /// Whether ticks are missing, so that the digest is not that of the run.
     pub has_gaps: bool,
     /// How the journal ends.
+    #[serde(skip)]
     pub ending: Ending,
+}
+
+impl Repeated {
+    /// The digest of the run, if the journal has its end.
+    pub fn run_digest(&self) -> Option<u64> {
+        match &self.ending {
+            Ending::Complete(end) => end.ending().map(|ending| ending.digest),
+            Ending::CutShort(_) | Ending::Damaged(_) => None,
+        }
+    }
+
+    /// Whether all that was replayed is as it was.
+    pub fn is_same(&self) -> bool {
+        self.differs_at.is_none() && (self.has_gaps || self.run_digest().is_none_or(|digest| digest == self.digest))
+    }
 }
 
 /// Replays a journal by the plan that it was made with.

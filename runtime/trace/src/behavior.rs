@@ -2,9 +2,10 @@
 
 use crate::active::Active;
 use crate::beginnings::Beginnings;
+use crate::condition::TriedCondition;
 use crate::wording::Wording;
 use albacore_geometry::{Heading, Point};
-use albacore_machine::{Event, Outcome};
+use albacore_machine::{Event, Outcome, Tried};
 use albacore_program::number;
 use albacore_program::seen::one_line;
 use albacore_program::{Cause, Program};
@@ -179,6 +180,11 @@ impl BehaviorTrace {
     /// What is active, from outside in, and the statement that is under way.
     pub fn under_way(&self) -> Vec<String> {
         self.active.under_way(&self.wording.names.program)
+    }
+
+    /// Conditions that were tried, in words.
+    pub fn tried(&self, tried: &[Tried]) -> Vec<TriedCondition> {
+        tried.iter().map(|tried| self.wording.tried(tried)).collect()
     }
 
     /// How many lines there are.

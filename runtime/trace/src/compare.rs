@@ -12,11 +12,29 @@ pub struct Difference {
 }
 
 /// What a line says was done, without its numbers.
-#[derive(PartialEq, Eq)]
-struct Deed {
-    said: String,
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Deed {
+    /// Verb and what.
+    pub said: String,
     /// The file and the line of the rule.
     rule: Option<(String, String)>,
+}
+
+impl Deed {
+    /// What was done without its verb, where that goes without saying: `track_in -> track_out`.
+    pub fn short(&self) -> &str {
+        self.said.strip_prefix("switch ").unwrap_or(&self.said)
+    }
+}
+
+/// All that a trace tells was done, each with its tick and its line.
+pub fn deeds(trace: &str) -> impl Iterator<Item = (u64, Deed, &str)> {
+    trace.lines().filter_map(|line| {
+        let (time, _) = line.trim_start().split_once(" s  ")?;
+        // The last digit is that of a tick.
+        let tick = time.replace('.', "").parse().ok()?;
+        Some((tick, deed(line)?, line.trim()))
+    })
 }
 
 /// Whether two traces, or their event lines alone, tell of the same sequence of enterings, leavings, switches, reports,
@@ -44,6 +62,13 @@ pub fn first_difference(a: &str, b: &str) -> Option<Difference> {
             }
         }
     }
+}
+
+/// Whether a line of a trace tells of something that was decided: a switch, a hold, an abort, who drives, or the end.
+pub fn is_decision(line: &str) -> bool {
+    let verb = timed(line).and_then(|rest| rest.split("  ").next()).map(str::trim);
+    let decided = ["switch", "resume", "stale", "fresh", "wait", "link", "abort", "timeout", "control", "end"];
+    verb.is_some_and(|verb| decided.contains(&verb))
 }
 
 type Rule = (String, String);

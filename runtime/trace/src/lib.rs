@@ -6,6 +6,7 @@ mod active;
 mod beginnings;
 mod behavior;
 mod compare;
+mod condition;
 mod digest;
 pub mod journal;
 mod names;
@@ -16,7 +17,8 @@ mod words;
 
 pub use active::Active;
 pub use behavior::{BehaviorTrace, Header, Release};
-pub use compare::{Difference, first_difference, first_foreign_line, same_behavior};
+pub use compare::{Deed, Difference, deeds, first_difference, first_foreign_line, is_decision, same_behavior};
+pub use condition::{TriedCondition, TriedTerm};
 pub use digest::Digest;
 pub use picture::{Cells, Depths, Picture};
 pub use record::{Ending, Step, TickRecord, areas};

@@ -245,7 +245,8 @@ impl Wording {
         done + &self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
     }
 
-    fn values<'a>(&self, named: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
+    /// Named values, one after the other.
+    pub(crate) fn values<'a>(&self, named: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
         let mut at = 0;
         let values = named.map(|(name, shape)| {
             let value = self.value(shape, words.get(at..).unwrap_or(&[]));

@@ -1,0 +1,98 @@
+//! Conditions that were tried, in words.
+
+use crate::wording::Wording;
+use albacore_machine::{Condition, Tried};
+use albacore_program::Target;
+use serde::Serialize;
+
+/// A condition that was tried in a tick.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct TriedCondition {
+    /// What it decides: `track_in -> track_out`, or `abort "no fix"`.
+    pub decides: String,
+    /// As it is written.
+    pub condition: String,
+    /// `file:line`.
+    pub place: String,
+    /// Whether the body of the behavior had come to its end.
+    pub done: bool,
+    /// Whether it held.
+    pub holds: bool,
+    /// The names in it and their values: `contact = false, lambda = 5.0 s`.
+    pub values: String,
+    /// What it is made of; empty where it is one term itself.
+    pub terms: Vec<TriedTerm>,
+}
+
+/// A term of a condition.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct TriedTerm {
+    /// As it is written.
+    pub text: String,
+    /// How deep it is in terms before it: in one that it is held by over time, or in a signal.
+    pub depth: u32,
+    /// Whether it held; none where those before it had decided.
+    pub holds: Option<bool>,
+}
+
+impl Wording {
+    /// A condition that was tried.
+    pub fn tried(&self, tried: &Tried) -> TriedCondition {
+        let p = &self.names.program;
+        let (watched, terms) = tried.condition.told(p, tried.done);
+        let named = watched.iter().map(|watched| (watched.name.as_str(), &watched.shape));
+        let holds = |word: &f64| (*word >= 0.0).then_some(*word != 0.0);
+        let texts = terms.map_or(&[][..], |terms| &terms.texts);
+        let terms = texts.iter().zip(&tried.terms).map(|((text, depth), word)| TriedTerm {
+            text: one_line(text),
+            depth: *depth,
+            holds: holds(word),
+        });
+        let (decides, condition, place) = self.decides(tried.condition);
+        TriedCondition {
+            decides,
+            condition: one_line(&condition),
+            place,
+            done: tried.done,
+            holds: tried.holds,
+            values: self.values(named, &tried.values),
+            terms: terms.collect(),
+        }
+    }
+
+    /// What a condition decides, how it is written, and where.
+    fn decides(&self, condition: Condition) -> (String, String, String) {
+        let p = &self.names.program;
+        match condition {
+            Condition::Exit(behavior, _) => {
+                let Some(exit) = condition.exit(p) else { return Default::default() };
+                let Some(rule) = p.rules.get(exit.rule as usize) else { return Default::default() };
+                let guard = rule.text.split_once(" on ").map_or("", |(_, guard)| guard);
+                let label = match rule.target {
+                    Target::Abort(why) => format!("{} -> abort{}", self.names.name(behavior), self.quoted(why)),
+                    _ => self.names.switch_label(behavior, exit.rule),
+                };
+                (label, guard.to_string(), rule.place.clone())
+            }
+            Condition::Abort(activity, at) => {
+                let activity = p.activities.get(activity as usize);
+                let Some(abort) = activity.and_then(|activity| activity.aborts.get(at as usize)) else {
+                    return Default::default();
+                };
+                (format!("abort{}", self.quoted(abort.why)), abort.text.clone(), abort.place.clone())
+            }
+        }
+    }
+
+    /// A reason as it is written, where it has no holes.
+    fn quoted(&self, text: u32) -> String {
+        let plain = self.names.program.texts.get(text as usize).and_then(|text| text.plain());
+        plain.map(|text| format!(" \"{}\"", one_line(&text))).unwrap_or_default()
+    }
+}
+
+/// A condition may stand on several lines of its script.
+fn one_line(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    albacore_program::seen::one_line(&words.join(" "))
+}
