@@ -20,6 +20,7 @@ mod mixups;
 mod names;
 mod new;
 mod pages;
+mod past;
 mod recorded;
 mod reference;
 mod repl;

@@ -73,10 +73,10 @@ pub fn depart(journal: &[u8], original: &Plan, changed: &Plan) -> Result<Departu
     let header = replay.header().clone();
     let mut sides = [Side::new(original, &header), Side::new(changed, &header)];
     let (mut commanded, mut decided, mut ticks) = (None, None::<Parting>, 0);
-    let mut over_at = None;
     while let Some(step) = replay.next() {
         let is_tick = matches!(step.record.step, Step::Tick);
-        if matches!(step.record.step, Step::Wait) {
+        // An end to which the mission came by itself was in the tick before it.
+        if !is_tick && step.record.events.is_empty() {
             continue;
         }
         ticks += u64::from(is_tick);
@@ -90,15 +90,10 @@ pub fn depart(journal: &[u8], original: &Plan, changed: &Plan) -> Result<Departu
         let position = replay.machine().position();
         (theirs.believed, ours.believed) = (position, position);
         sides[0].take(&theirs);
-        // The release belongs to the tick before it, in which the mission ended.
-        let is_release = !is_tick && over_at.is_some_and(|over| over + 1 == theirs.tick);
-        if step.is_beyond && !is_release {
+        if step.is_beyond {
             (sides[1].said, sides[1].lines) = Default::default();
         } else {
             sides[1].take(&ours);
-        }
-        if over_at.is_none() && replay.machine().outcome().is_some() {
-            over_at = Some(theirs.tick);
         }
         if decided.is_none() && sides[0].said != sides[1].said {
             let lines = sides.each_ref().map(|side| side.lines.clone());
@@ -142,17 +137,16 @@ fn conditions(
     Ok(side.trace.lines().tried(&tried))
 }
 
-/// Of two lists those conditions that did not come out the same, or were tried on one side alone.
+/// Of two lists the conditions of what one decided and the other did not.
 fn differing(both: [Vec<TriedCondition>; 2]) -> [Vec<TriedCondition>; 2] {
-    let other = |condition: &TriedCondition, among: &[TriedCondition]| {
-        among.iter().any(|other| {
-            (&other.decides, &other.condition, other.holds)
-                == (&condition.decides, &condition.condition, condition.holds)
-        })
-    };
-    let [first, second] = &both;
-    let of = |own: &[TriedCondition], among: &[TriedCondition]| {
-        own.iter().filter(|condition| !other(condition, among)).cloned().collect::<Vec<_>>()
-    };
-    [of(first, second), of(second, first)]
+    let decided = both.each_ref().map(|side| {
+        let held = side.iter().filter(|condition| condition.holds);
+        held.map(|condition| condition.decides.clone()).collect::<Vec<_>>()
+    });
+    both.map(|side| {
+        let is_ours = |condition: &TriedCondition| {
+            decided[0].contains(&condition.decides) != decided[1].contains(&condition.decides)
+        };
+        side.into_iter().filter(is_ours).collect()
+    })
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use std::ops::RangeInclusive;
 
 /// What a run decided, and why.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Explanation {
     /// The ticks in which something was decided, of those that were asked for.
     pub decisions: Vec<Decision>,
@@ -31,7 +31,7 @@ pub struct Explanation {
 }
 
 /// A tick in which something was decided.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Decision {
     /// The tick.
     pub tick: u64,
@@ -44,7 +44,7 @@ pub struct Decision {
 }
 
 /// How things were in a tick.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Moment {
     /// The tick.
     pub tick: u64,

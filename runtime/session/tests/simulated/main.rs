@@ -15,6 +15,7 @@ mod played;
 mod profiler;
 mod recorded;
 mod recording;
+mod replay;
 mod sink;
 mod sounding;
 mod station;

@@ -1,0 +1,123 @@
+//! The verbs that read what a run left: `replay`, `why`, `diff`.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// A folder of a test's own, with the script that is run.
+fn project(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("past").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy("tests/past/patrol.alb", folder.join("patrol.alb")).unwrap();
+    folder
+}
+
+/// Exit code, standard output and standard error.
+fn albacore(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    command.args(arguments).current_dir(folder).env("NO_COLOR", "1").stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn told(folder: &Path, arguments: &[&str]) -> String {
+    let (code, out, said) = albacore(folder, arguments);
+    let code = code.unwrap();
+    format!("$ albacore {}\n{out}{said}exit {code}\n\n", arguments.join(" "))
+}
+
+fn has_run(folder: &Path, arguments: &[&str]) {
+    let (code, _, said) = albacore(folder, &[&["run", "patrol.alb", "--out"], arguments].concat());
+    assert_eq!(code, Some(0), "{said}");
+}
+
+/// The same without the time of day at which a run was made.
+fn without_clock(text: &str) -> String {
+    let line = |line: &str| match line.strip_prefix("at ").and_then(|rest| rest.split_once("Z: ")) {
+        Some((before, after)) => format!("at {}[clock]: {after}\n", &before[..before.len() - "hh:mm:ss".len()]),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
+/// Two runs, and all that is asked of them.
+#[test]
+fn what_a_run_left_is_read() {
+    let folder = project("read");
+    has_run(&folder, &["held", "--fault", "position, off, from: 10 s, to: 16 s"]);
+    has_run(&folder, &["hasty", "--set", "patience=18s"]);
+    // The script is changed afterwards: what was run is in the journal.
+    let script = std::fs::read_to_string(folder.join("patrol.alb")).unwrap();
+    std::fs::write(folder.join("patrol.alb"), script.replace("legs >= turns", "legs > turns")).unwrap();
+    let asked: [&[&str]; 9] = [
+        &["replay", "held"],
+        &["replay", "held/journal"],
+        &["replay", "held", "--set", "patience=18s"],
+        &["replay", "held", "--script", "patrol.alb"],
+        &["why", "held"],
+        &["why", "held", "--at", "24s"],
+        &["why", "hasty", "--at", "5.0s"],
+        &["diff", "held", "hasty"],
+        &["diff", "held", "held"],
+    ];
+    let all: String = asked.iter().map(|arguments| told(&folder, arguments)).collect();
+    insta::with_settings!({ omit_expression => true }, {
+        insta::assert_snapshot!("what_a_run_left", without_clock(&all));
+    });
+}
+
+/// The moment may be given by the clock.
+#[test]
+fn a_moment_is_given_by_the_clock() {
+    let folder = project("clock");
+    has_run(&folder, &["held"]);
+    let record = std::fs::read_to_string(folder.join("held/run.json")).unwrap();
+    let told: serde_json::Value = serde_json::from_str(&record).unwrap();
+    let first = told["first_tick"].as_str().unwrap();
+    let clock = &first[11..16];
+    let (code, out, said) = albacore(&folder, &["why", "held", "--at", clock, "--json"]);
+    assert_eq!(code, Some(0), "{said}");
+    let why: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(why["moment"]["tick"], 0, "a minute in which the run began counts from its first tick: {first}");
+
+    std::fs::remove_file(folder.join("held/run.json")).unwrap();
+    let (code, _, said) = albacore(&folder, &["why", "held", "--at", clock]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("no clock is known of this run") && said.contains("751s"), "{said}");
+}
+
+/// What is no run, or none that can be read, is said with its mend.
+#[test]
+fn what_is_no_run_is_said() {
+    let folder = project("no_run");
+    has_run(&folder, &["held"]);
+    std::fs::create_dir(folder.join("empty")).unwrap();
+    let journal = std::fs::read(folder.join("held/journal")).unwrap();
+    std::fs::write(folder.join("cut"), &journal[..journal.len() / 2]).unwrap();
+    let mut damaged = journal.clone();
+    damaged[journal.len() / 2] ^= 1;
+    std::fs::write(folder.join("damaged"), damaged).unwrap();
+    let mut other = journal.clone();
+    other[4] = 5;
+    std::fs::write(folder.join("other"), other).unwrap();
+    std::fs::write(folder.join("picture"), "<svg/>").unwrap();
+    let asked: [&[&str]; 12] = [
+        &["replay", "."],
+        &["why", "empty"],
+        &["why", "none"],
+        &["diff", "held", "picture"],
+        &["replay", "other"],
+        &["replay", "cut"],
+        &["replay", "damaged"],
+        &["why", "held", "--at", "2h"],
+        &["why", "held", "--at", "noon"],
+        &["replay", "held", "--set", "patience=90s"],
+        &["replay", "held", "--script", "none.alb"],
+        &["replay", "held", "--mission", "none"],
+    ];
+    let all: String = asked.iter().map(|arguments| told(&folder, arguments)).collect();
+    insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!("what_is_no_run", all) });
+}
