@@ -17,22 +17,27 @@ pub struct Explain {
 impl Explain {
     /// Prints a page, or a list of codes.
     pub fn run(&self) -> Exit {
-        let Some(name) = self.code.as_deref() else {
-            output::print_raw(&list(Code::ALL));
-            return Exit::Well;
-        };
-        if let Some(code) = Code::named(name) {
-            output::print_raw(&page(code));
-            return Exit::Well;
-        }
-        let group: Vec<Code> = Code::ALL.iter().copied().filter(|code| code.group() == name).collect();
-        if group.is_empty() {
-            message::error(&format!("there is no code `{name}`"), Some(&suggestion(name)));
-            return Exit::Usage;
-        }
-        output::print_raw(&list(&group));
-        Exit::Well
+        explain(self.code.as_deref())
     }
+}
+
+/// Prints the page of a code, or a list of codes.
+pub fn explain(code: Option<&str>) -> Exit {
+    let Some(name) = code else {
+        output::print_raw(&list(Code::ALL));
+        return Exit::Well;
+    };
+    if let Some(code) = Code::named(name) {
+        output::print_raw(&page(code));
+        return Exit::Well;
+    }
+    let group: Vec<Code> = Code::ALL.iter().copied().filter(|code| code.group() == name).collect();
+    if group.is_empty() {
+        message::error(&format!("there is no code `{name}`"), Some(&suggestion(name)));
+        return Exit::Usage;
+    }
+    output::print_raw(&list(&group));
+    Exit::Well
 }
 
 /// A page as it is read on a terminal: what stands between fences is indented instead.

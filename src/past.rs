@@ -22,8 +22,8 @@ pub struct PastJournal {
     pub header: JournalHeader,
     /// When its first tick was, if its record tells.
     pub first_tick: Option<Utc>,
-    /// The script as it was named when it was run.
-    script: Option<PathBuf>,
+    /// The script as it was named when it was run, where it is still there.
+    pub script: Option<PathBuf>,
 }
 
 impl PastJournal {

@@ -10,9 +10,6 @@ use albacore_session::journal::Ending;
 use albacore_session::{Decision, Explanation, InputAge, TriedCondition, explain};
 use std::path::PathBuf;
 
-/// Terms within terms stand so many columns to the right.
-const TERM_INDENT: usize = 5;
-
 /// Explain what a run decided: every switch, hold and abort, or what held at a time.
 #[derive(clap::Args)]
 pub struct Why {
@@ -122,26 +119,7 @@ fn tell_decision(decision: &Decision, whole: bool, lines: &mut Lines) {
 
 /// Tells conditions that were tried, each with its terms and values.
 pub fn tell_conditions(conditions: &[TriedCondition], lines: &mut Lines) {
-    for condition in conditions {
-        let holds = yes(Some(condition.holds));
-        let TriedCondition { decides, place, values, .. } = condition;
-        lines.add(&format!("  {holds}  {decides}  {place}  on {}", condition.condition));
-        for term in &condition.terms {
-            let indent = term.depth as usize * TERM_INDENT;
-            lines.add(&format!("         {:indent$}{}  {}", "", yes(term.holds), term.text));
-        }
-        if !values.is_empty() {
-            lines.add(&format!("         with {values}"));
-        }
-    }
-}
-
-fn yes(holds: Option<bool>) -> &'static str {
-    match holds {
-        Some(true) => "yes",
-        Some(false) => "no ",
-        None => "-  ",
-    }
+    conditions.iter().flat_map(TriedCondition::lines).for_each(|line| lines.add(&line));
 }
 
 fn tell_inputs(inputs: &[InputAge], lines: &mut Lines) {

@@ -44,6 +44,97 @@ fn a_mission_is_driven_and_looked_into() {
 }
 
 #[test]
+fn time_is_travelled_and_two_ways_are_compared() {
+    let (code, answers) = answers("travels", &["missions/duck_single.alb"]);
+    insta::assert_snapshot!(answers);
+    // Some of its lines are refused.
+    assert_eq!(code, Some(3));
+}
+
+/// Traces a plume, goes back to before a turn, changes a parameter, forks, compares, and saves what it did as a test, which passes.
+#[test]
+fn a_session_becomes_a_test_that_passes() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("repl-saved");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy("missions/duck_single.alb", folder.join("duck_single.alb")).unwrap();
+    let lines = "start\nrun until track_out\nfork before\nback 5 s\nset lambda = 4 s\nrun\ncompare before\n\
+                 plot chemical, depth to series.svg\nsave test \"with 4 s\" to saved.alb\nsave test \"again\" to saved.alb\n";
+    let out = out("saved");
+    let mut child = session(&["duck_single.alb"], &out).current_dir(&folder).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+    let code = child.wait().unwrap().code();
+    let answers = std::fs::read_to_string(out).unwrap();
+    assert_eq!(code, Some(0), "{answers}");
+    assert!(answers.contains("end      completed") && answers.contains("written to saved.alb"), "{answers}");
+    assert!(answers.contains("could not be written") || answers.contains("choose another file"), "{answers}");
+    let saved = std::fs::read_to_string(folder.join("saved.alb")).unwrap();
+    assert!(saved.contains("run duck_single.duck_single(lambda: 4 s) in duck_2003 seeds 1..1"), "{saved}");
+    assert!(std::fs::read_to_string(folder.join("series.svg")).unwrap().starts_with("<svg"));
+    let mut test = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    let tested = test.args(["test", "saved.alb"]).current_dir(&folder).output().unwrap();
+    assert_eq!(tested.status.code(), Some(0), "{saved}\n{}", String::from_utf8_lossy(&tested.stderr));
+}
+
+/// A run that is over is gone through at the prompt: its journal holds all of it.
+#[test]
+fn a_run_that_is_over_is_gone_through() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("repl-past");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy("tests/past/patrol.alb", folder.join("patrol.alb")).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_albacore"));
+    let ran = run.args(["run", "patrol.alb", "--out", "dive"]).current_dir(&folder).output().unwrap();
+    assert_eq!(ran.status.code(), Some(0));
+    std::fs::remove_file(folder.join("patrol.alb")).unwrap();
+    let lines = "run until back\nwhy\nposition\nlegs\nlet home = op.center\nrun 10 s\ndistance(position, home)\nback 20 s\n\
+                 goto home\nstart\nset patience = 12 s\nfork kept\nreload\nplot altitude\nwhy 5 s\nrun\nrun\n\
+                 save test \"x\" to x.alb\n";
+    for named in ["dive", "dive/journal"] {
+        let out = out("past");
+        let mut child = session(&[named], &out).current_dir(&folder).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(3), "some lines are refused");
+        insta::assert_snapshot!("a_run_that_is_over", std::fs::read_to_string(out).unwrap());
+    }
+}
+
+/// A script that is edited while its mission is under way is read again.
+#[test]
+fn an_edited_script_is_read_again() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("repl-reload");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let script = std::fs::read_to_string("tests/past/patrol.alb").unwrap();
+    std::fs::write(folder.join("patrol.alb"), &script).unwrap();
+    let out = out("reload");
+    let mut child = session(&["patrol.alb"], &out).current_dir(&folder).spawn().unwrap();
+    let mut lines = child.stdin.take().unwrap();
+    let answers = |text: &str| {
+        // What was typed has been answered when this stands there.
+        while !std::fs::read_to_string(&out).unwrap().contains(text) {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+    };
+    lines.write_all(b"let far = 30 m\nwith depth 4 m\nstart\nrun 30 s\n").unwrap();
+    answers("   30.1 s  at");
+    std::fs::write(folder.join("patrol.alb"), script.replace("= 20 s in", "= 10 s in")).unwrap();
+    lines.write_all(b"reload\nfar\n\"asked\"\n").unwrap();
+    answers("asked");
+    std::fs::write(folder.join("patrol.alb"), "mission").unwrap();
+    lines.write_all(b"reload\nbehavior\n").unwrap();
+    drop(lines);
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    let answers = std::fs::read_to_string(&out).unwrap();
+    assert!(answers.contains("run again from its start") && answers.contains("10.0 s earlier"), "{answers}");
+    assert!(
+        answers.contains("30 m") && answers.contains("mission needs a name") || answers.contains("1 error"),
+        "{answers}"
+    );
+    assert!(answers.trim_end().ends_with("patrol > out") || answers.trim_end().ends_with("patrol > back"), "{answers}");
+}
+
+#[test]
 fn what_is_declared_is_known() {
     let (code, answers) = answers("declares", &[]);
     insta::assert_snapshot!(answers);

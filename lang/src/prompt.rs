@@ -4,6 +4,7 @@
 //! expression, become the body of a mission that is driven once: so whatever a script can say, a line can say, and means the
 //! same. The values that earlier lines have named, and those that the running mission knows, are put in place before it begins.
 
+mod complete;
 mod in_force;
 mod value;
 

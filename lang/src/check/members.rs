@@ -9,7 +9,7 @@ use crate::dimension::Dimension;
 use crate::hir::{Builtin, Expr, ExprKind, InputPart, Interval};
 use crate::source::Span;
 use crate::syntax::tree;
-use crate::types::{RecordInfo, Type};
+use crate::types::{RecordInfo, Type, TypeTable};
 use albacore_arithmetic::{Age, Operation, counted};
 use albacore_program::GRID_WORDS;
 use albacore_wording::listed;
@@ -51,7 +51,7 @@ fn methods(ty: &Type) -> Vec<Method> {
 }
 
 /// The names after a dot, for suggestions.
-fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
+pub(crate) fn member_names(types: &TypeTable, ty: &Type) -> Vec<String> {
     let mut names: Vec<String> = methods(ty).iter().map(|m| m.name.to_string()).collect();
     let more: &[&str] = match ty {
         Type::Point => &["north", "east"],
@@ -62,7 +62,7 @@ fn member_names(checker: &Checker, ty: &Type) -> Vec<String> {
         Type::Map(..) => &["count", "cell"],
         Type::List(..) => &["count", "first", "top", "spread", "insert", "remove", "clear"],
         Type::Record(id) => {
-            names.extend(checker.types.records[*id].fields.iter().map(|(n, _)| n.clone()));
+            names.extend(types.records[*id].fields.iter().map(|(n, _)| n.clone()));
             &[]
         }
         _ => &[],
@@ -260,7 +260,7 @@ impl<'t> Checker<'t> {
 
     fn no_such_member(&mut self, value: &Expr, member: &tree::Name) {
         let ty = self.type_name(&value.ty);
-        let names = member_names(self, &value.ty);
+        let names = member_names(&self.types, &value.ty);
         if member.node == "hits" && matches!(value.kind, ExprKind::Input(_, InputPart::Value)) && has_order(&value.ty) {
             let message = "`hits` of an input is called: it counts the samples of the last few that reach a limit";
             let finding = Diagnostic::error(Code::NamesMember, member.span, message);
@@ -382,7 +382,7 @@ impl<'t> Checker<'t> {
                 self.report(finding);
                 self.unknown(span)
             }
-            (ty, name) if member_names(self, &ty).iter().any(|known| known == name) => {
+            (ty, name) if member_names(&self.types, &ty).iter().any(|known| known == name) => {
                 let message = format!("`{name}` of {} takes no arguments", article(&self.type_name(&ty)));
                 let finding = Diagnostic::error(Code::NamesCall, member.span, message);
                 self.report(finding.help(format!("write `.{name}`, without brackets")));

@@ -59,6 +59,7 @@ mod whole;
 
 pub use ends::never_ends;
 pub(crate) use flow::{goes_round, least_time, takes_time};
+pub(crate) use members::member_names;
 pub use params::Override;
 pub(crate) use plausibility::range_of_var;
 pub use room::{check, too_large};

@@ -166,6 +166,11 @@ fn all(uses: u16) -> impl Iterator<Item = &'static str> {
     words().filter(move |word| word.uses & uses != 0).map(|word| word.text)
 }
 
+/// Every word of the language.
+pub fn every() -> impl Iterator<Item = &'static str> {
+    words().map(|word| word.text)
+}
+
 /// Whether a word is never a name.
 pub fn is_reserved(text: &str) -> bool {
     has(text, RESERVED)

@@ -30,12 +30,12 @@ pub(crate) fn scripts(script: &Script) -> Arc<[KeptScript]> {
 }
 
 /// The scripts of a journal, and beside them the files of data of a project, which no journal holds.
-struct KeptFiles<'a> {
-    scripts: &'a [KeptScript],
-    data: &'a Files,
+struct KeptFiles {
+    scripts: Vec<KeptScript>,
+    data: Files,
 }
 
-impl Library for KeptFiles<'_> {
+impl Library for KeptFiles {
     fn prelude(&self) -> &Prelude {
         self.data.prelude()
     }
@@ -59,7 +59,14 @@ impl Library for KeptFiles<'_> {
     }
 }
 
-impl KeptFiles<'_> {
+impl KeptFiles {
+    /// The script itself.
+    fn first(&self) -> Result<Source, PlanError> {
+        let help = "name the script with `--script`; texts of more than 6 MiB are not kept";
+        let missing = || PlanError::Asked("the journal does not hold its script".into(), Some(help.into()));
+        self.scripts.first().map(|script| self.source(script)).ok_or_else(missing)
+    }
+
     /// A script under the name that it would have in the project, from which its files of data are looked for.
     fn source(&self, script: &KeptScript) -> Source {
         let file = format!("{}.alb", script.module);
@@ -92,7 +99,6 @@ impl Changes<'_> {
 impl Plan {
     /// The plan of a run by what its journal tells of it, with changes; and its script.
     pub fn of_journal(header: &JournalHeader, changes: &Changes) -> Result<(Script, Self), PlanError> {
-        let is_fault = |text: &&String| text.starts_with("--fault ");
         let set: Vec<String> = header.set.iter().filter(|text| !is_fault(text)).chain(changes.set).cloned().collect();
         let mission = changes.mission.unwrap_or(&header.mission);
         let files = Files::around(changes.beside.unwrap_or(Path::new("")));
@@ -111,11 +117,12 @@ impl Plan {
             set: &set,
         };
         let (own, others) = wanted.parted();
+        let data = files.clone();
         let script = match changes.script {
             Some(path) => {
                 crate::load_for(path, &wanted).map_err(|error| PlanError::Asked(error.message, error.help))?
             }
-            None => load_kept(&header.scripts, &files, &wanted.of_script(&own))?,
+            None => load_kept(&header.scripts, files, &wanted.of_script(&own))?,
         };
         let script = is_sound(script)?;
         let file = script.sources.iter().next().map_or_else(String::new, |source| source.name.to_string());
@@ -124,7 +131,7 @@ impl Plan {
             World::Scenario(scripts) if scripts.is_empty() => Plan::unsuited(&script, &file, &wanted)?,
             World::Scenario(scripts) => {
                 let world = Wanted { mission: None, scenario: Some(scenario), set: &others };
-                let other = is_sound(load_kept(scripts, &files, &world.of_script(&others))?)?;
+                let other = is_sound(load_kept(scripts, data, &world.of_script(&others))?)?;
                 let (_, program) = chosen(&script, &file, Some(mission))?;
                 Plan::in_world_of(&other, &script, Arc::new(program), scenario)?
             }
@@ -134,13 +141,28 @@ impl Plan {
 }
 
 /// Reads and checks the first of some scripts.
-fn load_kept(scripts: &[KeptScript], data: &Files, wanted: &albacore_lang::Wanted) -> Result<Script, PlanError> {
-    let Some(first) = scripts.first() else {
-        let help = "name the script with `--script`; texts of more than 6 MiB are not kept";
-        return Err(PlanError::Asked("the journal does not hold its script".into(), Some(help.into())));
-    };
-    let files = KeptFiles { scripts, data };
-    Ok(albacore_lang::load_for(files.source(first), &files, wanted))
+fn load_kept(scripts: &[KeptScript], data: Files, wanted: &albacore_lang::Wanted) -> Result<Script, PlanError> {
+    let files = KeptFiles { scripts: scripts.to_vec(), data };
+    Ok(albacore_lang::load_for(files.first()?, &files, wanted))
+}
+
+/// The script of a journal for a prompt, and where it finds what it imports.
+pub(crate) fn lines(
+    header: &JournalHeader,
+    changes: &Changes,
+) -> Result<(Arc<dyn Library>, albacore_lang::prompt::Prompt, Script), PlanError> {
+    let data = Files::around(changes.beside.unwrap_or(Path::new("")));
+    let files = KeptFiles { scripts: header.scripts.clone(), data };
+    let set: Vec<String> = header.set.iter().filter(|text| !is_fault(text)).chain(changes.set).cloned().collect();
+    let wanted = Wanted { mission: Some(&header.mission), scenario: None, set: &set };
+    let (own, _) = wanted.parted();
+    let (lines, script) = albacore_lang::prompt::Prompt::open(files.first()?, &files, &wanted.of_script(&own));
+    Ok((Arc::new(files), lines, is_sound(script)?))
+}
+
+/// Whether a text that was changed for a run lets something fail.
+fn is_fault(text: &str) -> bool {
+    text.starts_with("--fault ")
 }
 
 fn is_sound(script: Script) -> Result<Script, PlanError> {

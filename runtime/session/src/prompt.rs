@@ -3,26 +3,39 @@
 //! Between two lines no time goes by: the vehicle has sensed a tick and waits to be told what to do in it. A statement is
 //! driven to its end as fast as the machine can; one that never ends by itself is begun, and goes on with `run` and `step`.
 
+mod asked;
+mod changed;
 mod command;
+mod complete;
 mod moment;
 mod opening;
+mod plot;
+mod saved;
+mod timeline;
+mod until;
+mod vehicle;
 
-pub use opening::{OpenError, Opening};
+pub use complete::WordKind;
+pub use opening::{OpenError, Opening, PastTicks};
 
-use crate::Script;
-use crate::files::Files;
 use albacore_lang::diagnostic::Diagnostic;
-use albacore_lang::prompt::{Drive, Left, Line, Named, Prompt as Lines, is_hidden};
+use albacore_lang::prompt::{Drive, Left, Line, Named, is_hidden};
 use albacore_lang::source::Sources;
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{Program, number, senses};
 use albacore_sim::Scenario;
-use albacore_vehicle::{Control, Snapshot, TICK_S, Vehicle, measurements};
+use albacore_vehicle::{Control, Snapshot, TICK_S, measurements};
 use command::{Command, HELP, TICKS_MAX};
 use moment::{Moment, Past, Task};
-use std::collections::BTreeSet;
+use opening::Loaded;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use timeline::Fork;
+use until::Until;
+
+/// A mission that waits for its inputs has them by then: 20 s.
+const LOOK_AHEAD_TICKS: u64 = 200;
 
 /// What the prompt has to say.
 pub enum Say<'a> {
@@ -32,6 +45,10 @@ pub enum Say<'a> {
     Findings(&'a [Diagnostic], &'a Sources),
     /// An error that is in no source: message and help.
     Error(&'a str, Option<&'a str>),
+    /// A file that is wanted: its path and its text.
+    File(&'a str, &'a str),
+    /// The page of a code of messages is wanted.
+    Page(&'a str),
 }
 
 /// Who hears it.
@@ -50,16 +67,19 @@ pub enum Answer {
 
 /// A session at the prompt.
 pub struct Prompt {
-    files: Files,
-    lines: Lines,
-    script: Script,
-    /// The mission that `start` begins, and how it is called.
-    mission: Option<Arc<Program>>,
-    scenario_name: String,
-    scenario: Arc<Scenario>,
-    seed: u64,
+    /// What it was opened with, and what has been set since.
+    opening: Opening,
+    /// The script, and the mission that `start` begins.
+    loaded: Loaded,
+    /// The lines that have declared something, or put something in force.
+    entered: Vec<String>,
+    /// What the mission that `start` begins calls its parameters and area, before it begins.
+    ahead: Vec<Named>,
     now: Moment,
     past: Past,
+    /// What the present is called among the forks.
+    here: String,
+    forks: BTreeMap<String, Fork>,
     /// The person has interrupted what was being done.
     stopped: bool,
 }
@@ -67,11 +87,21 @@ pub struct Prompt {
 impl Prompt {
     /// What is loaded, in one line.
     pub fn greeting(&self) -> String {
-        let mission = match &self.mission {
+        if self.now.vehicle.is_past() {
+            let (name, seed) = (&self.loaded.scenario_name, self.opening.seed);
+            let mission = self.loaded.mission.as_ref().map_or("", |program| &program.mission.name);
+            return format!(
+                "a run of {mission} in {name}, seed {seed}, at its beginning: `run`, `run until X`, `why`; `help` tells the rest"
+            );
+        }
+        let mission = match &self.loaded.mission {
             Some(program) => format!("mission {} (begin it with `start`), ", program.mission.name),
             None => String::new(),
         };
-        format!("{mission}world {}, seed {}; `help` tells what can be typed", self.scenario_name, self.seed)
+        format!(
+            "{mission}world {}, seed {}; `help` tells what can be typed",
+            self.loaded.scenario_name, self.opening.seed
+        )
     }
 
     /// Whether a text wants another line before it can be entered. Two blank lines end it: whoever forgot a
@@ -103,7 +133,18 @@ impl Prompt {
             Command::Names => self.tell_names(say),
             Command::Start => return self.start(say),
             Command::Stop => self.stop(say),
-            Command::Step(ticks) => self.drive(ticks, interrupted, say),
+            Command::Step(ticks) => self.drive(ticks, Until::Over, interrupted, say),
+            Command::RunUntil(condition) => return self.run_until(condition, interrupted, say),
+            Command::Why(time) => return self.why(time, say),
+            Command::Set(name, value) => return self.set(name, value, interrupted, say),
+            Command::Reload => return self.reload(interrupted, say),
+            Command::Fork(name) => return self.fork(name, say),
+            Command::SwitchTo(name) => return self.switch_to(name, say),
+            Command::Forks => self.tell_forks(say),
+            Command::Compare(name) => return self.compare(name, say),
+            Command::Plot(what, file) => return self.plot(what, file, say),
+            Command::SaveTest(name, file) => return self.save_test(name, file, say),
+            Command::Explain(code) => say(Say::Page(code)),
             Command::Misused(what, help) => {
                 say(Say::Error(what, Some(help)));
                 return Answer::Wrong;
@@ -113,9 +154,9 @@ impl Prompt {
                 say(Say::Error("nothing is under way", Some(help)));
                 return Answer::Wrong;
             }
-            Command::Run(None) => self.drive(TICKS_MAX, interrupted, say),
+            Command::Run(None) => self.drive(TICKS_MAX, Until::Over, interrupted, say),
             Command::Run(Some(text)) => match self.ticks(text, say) {
-                Some(ticks) => self.drive(ticks, interrupted, say),
+                Some(ticks) => self.drive(ticks, Until::Over, interrupted, say),
                 None => return Answer::Wrong,
             },
             Command::Back(text) => match self.ticks(text, say) {
@@ -128,20 +169,24 @@ impl Prompt {
 
     fn line(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
         let known = self.known();
-        let read = self.lines.read(&self.files, text, &known, self.origin());
+        let read = self.loaded.lines.read(&*self.loaded.files, text, &known, self.origin());
         if !read.findings.is_empty() {
-            say(Say::Findings(&read.findings, self.lines.sources()));
+            say(Say::Findings(&read.findings, self.loaded.lines.sources()));
         }
         match read.line {
             None => return Answer::Wrong,
-            Some(Line::Declared(names)) => say(Say::Text(&format!("declared {}", names.join(", ")))),
+            Some(Line::Declared(names)) => {
+                self.entered.push(text.to_string());
+                say(Say::Text(&format!("declared {}", names.join(", "))));
+            }
             Some(Line::With(in_force)) => {
                 let values: Result<Vec<_>, _> = in_force.values.iter().map(|drive| self.value(drive, &known)).collect();
                 match values {
                     Ok(values) => values.into_iter().for_each(|(_, value)| self.now.name(value)),
                     Err(what) => return wrong(&what, say),
                 }
-                self.lines.put_in_force(in_force);
+                self.loaded.lines.put_in_force(in_force);
+                self.entered.push(text.to_string());
                 self.past.pin(&self.now);
             }
             Some(Line::Value(drive)) => match self.value(&drive, &known) {
@@ -171,26 +216,61 @@ impl Prompt {
             }
         };
         if let Some(task) = self.now.task.as_ref().filter(|task| task.left.is_none()) {
-            let words = &task.machine.state().words;
-            let frames = task.machine.frames();
-            for (at, &(id, base)) in frames.iter().enumerate().rev() {
-                let outer = at.checked_sub(1).map(|outer| frames[outer].0);
-                let frame = words.get(base as usize..).unwrap_or(&[]);
-                self.script.names_of(task.machine.program(), outer, id, frame).into_iter().for_each(&mut add);
-            }
+            self.names_of(&task.machine).into_iter().for_each(&mut add);
         }
         self.now.names().iter().cloned().for_each(&mut add);
+        if self.now.task.is_none() {
+            self.ahead.iter().cloned().for_each(&mut add);
+        }
         known
+    }
+
+    /// What a machine calls what it knows, innermost first.
+    fn names_of(&self, machine: &Machine) -> Vec<Named> {
+        let words = &machine.state().words;
+        let frames = machine.frames();
+        let of = |(at, &(id, base)): (usize, &(u32, u32))| {
+            let outer = at.checked_sub(1).map(|outer| frames[outer].0);
+            let frame = words.get(base as usize..).unwrap_or(&[]);
+            self.loaded.script.names_of(machine.program(), outer, id, frame)
+        };
+        frames.iter().enumerate().rev().flat_map(of).collect()
+    }
+
+    /// Finds out what the mission calls its parameters and area before it begins: as it would begin now.
+    fn look_ahead(&mut self) {
+        self.ahead.clear();
+        let Some(mut machine) = self.loaded.mission.clone().and_then(|program| self.machine_for(program).ok()) else {
+            return;
+        };
+        let mut moment = self.now.clone();
+        for _ in 0..LOOK_AHEAD_TICKS {
+            machine.step(&moment.snapshot);
+            if let Some(&(id, base)) = machine.frames().first() {
+                let frame = machine.state().words.get(base as usize..).unwrap_or(&[]);
+                self.ahead = self.loaded.script.names_of(machine.program(), None, id, frame);
+                return;
+            }
+            if moment.step(&mut |_| {}).is_err() {
+                return;
+            }
+        }
     }
 
     /// Computes an expression on what is sensed now. Nothing is commanded and no time goes by.
     fn value(&self, drive: &Drive, known: &[Named]) -> Result<(Arc<Program>, Named), String> {
-        let mut machine = self.machine(drive, known)?;
+        self.value_in(&self.now, drive, known)
+    }
+
+    /// The same in another moment.
+    fn value_in(&self, moment: &Moment, drive: &Drive, known: &[Named]) -> Result<(Arc<Program>, Named), String> {
+        let mut machine = self.machine_in(moment, Arc::new(drive.program.clone()))?;
+        put(&mut machine, drive, known);
         if let Some(unheard) = drive.reads.iter().find(|&&input| !machine.has_sample(input)) {
             return Err(self.unsensed(&machine.program().inputs[*unheard as usize].name));
         }
         // It is the prompt that asks, whoever drives.
-        machine.step(&Snapshot { control: Control::InControl, ..self.now.snapshot.clone() });
+        machine.step(&Snapshot { control: Control::InControl, ..moment.snapshot.clone() });
         if let Some(why) = aborted(machine.events()) {
             return Err(why);
         }
@@ -213,16 +293,22 @@ impl Prompt {
     /// A machine for a line, which knows what was sensed lately and what has a name.
     fn machine(&self, drive: &Drive, known: &[Named]) -> Result<Machine, String> {
         let mut machine = self.machine_for(Arc::new(drive.program.clone()))?;
-        for (slot, named) in drive.known.iter().zip(known) {
-            machine.put(*slot, &named.words);
-        }
+        put(&mut machine, drive, known);
         Ok(machine)
     }
 
     fn machine_for(&self, program: Arc<Program>) -> Result<Machine, String> {
+        self.machine_in(&self.now, program)
+    }
+
+    /// A machine that begins in a moment, and knows what was sensed lately.
+    fn machine_in(&self, moment: &Moment, program: Arc<Program>) -> Result<Machine, String> {
         let mut machine =
-            Machine::new(program, self.now.vehicle.measurements()).map_err(|missing| missing.to_string())?;
-        machine.begin_at(self.now.tick, self.now.recent());
+            Machine::new(program, moment.vehicle.measurements()).map_err(|missing| missing.to_string())?;
+        // The mission of a run that is over begins with the run, whoever drives then.
+        if !(moment.vehicle.is_past() && moment.tick == 0) {
+            machine.begin_at(moment.tick, moment.recent());
+        }
         Ok(machine)
     }
 
@@ -246,17 +332,17 @@ impl Prompt {
         self.now.task = Some(Task::line(machine, left, drive.vars, text));
         self.past.pin(&self.now);
         if drive.endless {
-            self.drive(1, interrupted, say);
+            self.drive(1, Until::Over, interrupted, say);
             say(Say::Text("goes on: `run 30 s` or `step` lets time go by, `stop` ends it"));
         } else {
-            self.drive(TICKS_MAX, interrupted, say);
+            self.drive(TICKS_MAX, Until::Over, interrupted, say);
         }
         Answer::Done
     }
 
     /// Begins the mission of the script.
     fn start(&mut self, say: &mut Listener) -> Answer {
-        let Some(program) = self.mission.clone() else {
+        let Some(program) = self.loaded.mission.clone() else {
             let help = "open the prompt with a script: `albacore repl MISSION.alb`";
             say(Say::Error("no mission is loaded", Some(help)));
             return Answer::Wrong;
@@ -278,6 +364,11 @@ impl Prompt {
 
     /// A vehicle that has taken control back, for a leak, does nothing more that it is told.
     fn is_lost(&self, say: &mut Listener) -> Option<Answer> {
+        if self.now.vehicle.is_past() {
+            let help = "`run`, `back`, `why`, `plot` and expressions tell of it; `set lambda = 4 s` tells what else the mission would have done";
+            say(Say::Error("this run is over: its vehicle does nothing more that it is told", Some(help)));
+            return Some(Answer::Wrong);
+        }
         if self.now.snapshot.control == Control::InControl {
             return None;
         }
@@ -292,14 +383,21 @@ impl Prompt {
         say(Say::Text(&format!("{}  stopped", self.now.place())));
     }
 
-    /// Lets time go by until what is under way ends, but so many ticks at most.
-    fn drive(&mut self, ticks: u64, interrupted: &AtomicBool, say: &mut Listener) {
+    /// Lets time go by until what is under way ends, or what is waited for comes, but so many ticks at most.
+    fn drive(&mut self, ticks: u64, mut until: Until, interrupted: &AtomicBool, say: &mut Listener) {
         let was_busy = self.now.task.is_some();
-        let until = self.now.tick + ticks;
-        while self.now.tick < until {
+        let last = self.now.tick + ticks;
+        while self.now.tick < last {
             if interrupted.swap(false, Ordering::Relaxed) {
                 self.stopped = true;
                 return self.stop(say);
+            }
+            if until.has_come(self) {
+                break;
+            }
+            if self.now.vehicle.is_at_end() {
+                say(Say::Text("the journal ends here"));
+                break;
             }
             let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
                 Ok(ended) => ended,
@@ -314,7 +412,12 @@ impl Prompt {
             }
             self.past.note(&self.now);
         }
-        let on = if was_busy && self.now.task.is_some() && ticks == TICKS_MAX { "  still under way" } else { "" };
+        let is_busy = was_busy && self.now.task.is_some();
+        let on = match until.told() {
+            Some(told) => told,
+            None if is_busy && ticks == TICKS_MAX => "  still under way".to_string(),
+            None => String::new(),
+        };
         say(Say::Text(&format!("{}{on}", self.now.place())));
     }
 
@@ -349,9 +452,9 @@ impl Prompt {
     /// A time typed after `run` or `back`, in ticks, at least one.
     fn ticks(&mut self, text: &str, say: &mut Listener) -> Option<u64> {
         let known = self.known();
-        let read = self.lines.read(&self.files, text, &known, self.origin());
+        let read = self.loaded.lines.read(&*self.loaded.files, text, &known, self.origin());
         if !read.findings.is_empty() {
-            say(Say::Findings(&read.findings, self.lines.sources()));
+            say(Say::Findings(&read.findings, self.loaded.lines.sources()));
         }
         let drive = match read.line? {
             Line::Value(drive) if drive.value.as_ref().is_some_and(Left::is_duration) => drive,
@@ -375,16 +478,15 @@ impl Prompt {
     }
 
     fn active(&self) -> String {
-        let Some(task) = &self.now.task else { return "nothing is under way".to_string() };
+        self.now.task.as_ref().map_or_else(|| "nothing is under way".to_string(), Prompt::active_in)
+    }
+
+    /// What is active, from outside in.
+    fn active_in(task: &Task) -> String {
         let program = task.machine.program();
         let first = usize::from(task.left.is_some());
-        let names: Vec<&str> = task
-            .machine
-            .active()
-            .into_iter()
-            .skip(first)
-            .map(|id| program.activities[id as usize].name.as_str())
-            .collect();
+        let active = task.machine.active().into_iter().skip(first);
+        let names: Vec<&str> = active.map(|id| program.activities[id as usize].name.as_str()).collect();
         let own = task.left.is_some().then(|| task.text.lines().next().unwrap_or_default());
         own.into_iter().chain(names).collect::<Vec<_>>().join(" > ")
     }
@@ -402,12 +504,19 @@ impl Prompt {
     }
 
     fn origin(&self) -> Option<albacore_geometry::Geodetic> {
-        self.mission.as_ref().and_then(|program| program.mission.origin)
+        self.loaded.mission.as_ref().and_then(|program| program.mission.origin)
     }
 
     /// The world that the vehicle is in.
     pub fn scenario(&self) -> &Scenario {
-        &self.scenario
+        &self.loaded.scenario
+    }
+}
+
+/// Puts the values in place that a line can name.
+fn put(machine: &mut Machine, drive: &Drive, known: &[Named]) {
+    for (slot, named) in drive.known.iter().zip(known) {
+        machine.put(*slot, &named.words);
     }
 }
 

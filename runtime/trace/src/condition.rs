@@ -35,6 +35,33 @@ pub struct TriedTerm {
     pub holds: Option<bool>,
 }
 
+/// Terms within terms stand so many columns to the right.
+const TERM_INDENT: usize = 5;
+
+impl TriedCondition {
+    /// In lines: whether it held, what it decides, and what it is made of.
+    pub fn lines(&self) -> Vec<String> {
+        let TriedCondition { decides, place, condition, values, .. } = self;
+        let mut lines = vec![format!("  {}  {decides}  {place}  on {condition}", yes(Some(self.holds)))];
+        for term in &self.terms {
+            let indent = term.depth as usize * TERM_INDENT;
+            lines.push(format!("         {:indent$}{}  {}", "", yes(term.holds), term.text));
+        }
+        if !values.is_empty() {
+            lines.push(format!("         with {values}"));
+        }
+        lines
+    }
+}
+
+fn yes(holds: Option<bool>) -> &'static str {
+    match holds {
+        Some(true) => "yes",
+        Some(false) => "no ",
+        None => "-  ",
+    }
+}
+
 impl Wording {
     /// A condition that was tried.
     pub fn tried(&self, tried: &Tried) -> TriedCondition {

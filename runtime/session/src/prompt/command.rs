@@ -15,11 +15,29 @@ and beside it:
   start            begin the mission of the script
   step, step 10    let ticks go by
   run 5 min, run   let time go by; until what is under way ends
+  run until X      until a condition holds, or a behavior of this name is entered
   back 30 s        go back in time; what was under way then is so again
   stop             end what is under way (Ctrl-C does so while it is driven)
   behavior         what is active, from outside in
+  why, why 751 s   the conditions that were tried in the last tick, or then: what they are made of
+  set lambda = 4 s change a parameter: the mission is run again from its start to now
+  reload           the same with the script as it is in its file now
+  fork NAME        keep all that is now under a name, and go on
+  switch to NAME   go on there; what is left is kept, at first under the name `main`
+  forks            what is kept
+  compare NAME     what the mission did there and not here
+  plot chemical, depth           what expressions were, over time
+  plot chemical to FILE.svg      the same as a picture
+  save test \"NAME\" to FILE.alb   the mission as it was run here, as a test
+  explain CODE     what the code of an error or a warning means
   names            what has a name, with its value: in a mission its signals and memories too
   quit             leave (Ctrl-D)";
+
+/// The words with which a command begins.
+pub const WORDS: [&str; 18] = [
+    "start", "step", "run", "back", "stop", "behavior", "why", "set", "reload", "fork", "switch", "forks", "compare",
+    "plot", "save", "explain", "names", "help",
+];
 
 /// Time goes by this many ticks at most before the prompt comes back: ten hours.
 pub const TICKS_MAX: u64 = 360_000;
@@ -38,7 +56,23 @@ pub enum Command<'a> {
     Misused(&'static str, &'static str),
     /// For a time as it was typed, or to the end.
     Run(Option<&'a str>),
+    /// Until a condition holds, or a behavior is entered.
+    RunUntil(&'a str),
     Back(&'a str),
+    /// The last tick, or that of a time as it was typed.
+    Why(Option<&'a str>),
+    /// A parameter and its value, as they were typed.
+    Set(&'a str, &'a str),
+    Reload,
+    Fork(&'a str),
+    SwitchTo(&'a str),
+    Forks,
+    Compare(&'a str),
+    /// Expressions, and the file that the picture goes to.
+    Plot(&'a str, Option<&'a str>),
+    /// The name of the test, and its file.
+    SaveTest(&'a str, &'a str),
+    Explain(&'a str),
 }
 
 /// The command that a text is, if it is one. All else is the language's.
@@ -65,6 +99,12 @@ pub fn of(text: &str) -> Option<Command<'_>> {
         ("run" | "back", _) if negative => {
             Command::Misused("time goes by in one direction", "`run 30 s` goes on, `back 30 s` goes back")
         }
+        ("run", _) if until(rest).is_some() => match until(rest) {
+            Some("") | None => {
+                Command::Misused("until what?", "for example `run until chemical > 5 %`, `run until track_in`")
+            }
+            Some(condition) => Command::RunUntil(condition),
+        },
         ("run", time) if has_value => Command::Run(Some(time)),
         ("back", "") => Command::Misused("how far back?", "for example `back 30 s`"),
         ("back", time) if has_value => Command::Back(time),
@@ -72,11 +112,59 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             let help = "leave, and open the prompt with it: `albacore repl FILE.alb`; `use NAME` imports a module";
             Command::Misused("a script is not loaded at the prompt", help)
         }
-        ("quit" | "exit" | "help" | "names" | "stop" | "start", _) if has_value => {
+        ("why", "") => Command::Why(None),
+        ("why", time) if has_value => Command::Why(Some(time)),
+        ("reload", "") => Command::Reload,
+        ("forks", "") => Command::Forks,
+        ("set", _) if has_value => match rest.split_once('=') {
+            Some((name, value)) if is_path(name.trim()) && !value.trim().is_empty() => {
+                Command::Set(name.trim(), value.trim())
+            }
+            _ => Command::Misused("which parameter, and what value?", "for example `set lambda = 4 s`"),
+        },
+        ("fork", name) if is_path(name) => Command::Fork(name),
+        ("fork", "") => Command::Misused("under what name?", "for example `fork before_the_turn`"),
+        ("compare", name) if is_path(name) => Command::Compare(name),
+        ("switch", to) if to.strip_prefix("to ").is_some_and(|name| is_path(name.trim())) => {
+            Command::SwitchTo(to.strip_prefix("to ").unwrap_or(to).trim())
+        }
+        ("plot", "") => Command::Misused("plot what?", "for example `plot chemical, depth`"),
+        ("plot", _) if has_value => match rest.rsplit_once(" to ") {
+            Some((what, file)) => Command::Plot(what.trim(), Some(file.trim())),
+            None => Command::Plot(rest, None),
+        },
+        ("save", _) if rest.starts_with("test") => saved(rest).unwrap_or(Command::Misused(
+            "a test needs a name and a file",
+            "for example `save test \"it turns\" to turns.alb`",
+        )),
+        ("explain", code) if has_value => Command::Explain(code),
+        ("quit" | "exit" | "help" | "names" | "stop" | "start" | "reload" | "forks", _) if has_value => {
             Command::Misused("this command stands alone on its line", "`help` lists the commands")
         }
         _ => return None,
     })
+}
+
+/// What stands behind `until`.
+fn until(rest: &str) -> Option<&str> {
+    let after = rest.strip_prefix("until")?;
+    (after.is_empty() || after.starts_with(char::is_whitespace)).then(|| after.trim())
+}
+
+/// Whether a text is a name, or names with dots between them.
+fn is_path(text: &str) -> bool {
+    let is_name = |name: &str| {
+        name.starts_with(|c: char| c.is_alphabetic() || c == '_')
+            && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    text.split('.').all(is_name)
+}
+
+/// `test "NAME" to FILE`.
+fn saved(rest: &str) -> Option<Command<'_>> {
+    let (name, file) = rest.strip_prefix("test")?.trim().strip_prefix('"')?.split_once('"')?;
+    let file = file.trim().strip_prefix("to ")?.trim();
+    (!name.trim().is_empty() && !file.is_empty()).then_some(Command::SaveTest(name, file))
 }
 
 #[cfg(test)]
@@ -92,7 +180,30 @@ mod tests {
             assert!(matches!(of(misused), Some(Command::Misused(..))), "{misused}");
         }
         assert_eq!(of("behavior"), Some(Command::Behavior));
-        for language in ["behavior b { hold for 1 s }", "step + 3 m", "step = 3", "run = 3", "goto home", "2 m", ""] {
+        assert_eq!(of("run until altitude < 3 m"), Some(Command::RunUntil("altitude < 3 m")));
+        assert_eq!(of("run until_then"), Some(Command::Run(Some("until_then"))));
+        assert_eq!(of("set lambda = 4 s"), Some(Command::Set("lambda", "4 s")));
+        assert_eq!(of("set cpt_2005.beta=30 deg"), Some(Command::Set("cpt_2005.beta", "30 deg")));
+        assert_eq!(of("switch to main"), Some(Command::SwitchTo("main")));
+        assert_eq!(of("plot chemical, depth to a.svg"), Some(Command::Plot("chemical, depth", Some("a.svg"))));
+        assert_eq!(of("save test \"it turns\" to t.alb"), Some(Command::SaveTest("it turns", "t.alb")));
+        for misused in ["set lambda", "set 3 = 4", "fork", "plot", "save test turns", "run until", "reload box.alb"] {
+            assert!(matches!(of(misused), Some(Command::Misused(..))), "{misused}");
+        }
+        for language in [
+            "behavior b { hold for 1 s }",
+            "step + 3 m",
+            "step = 3",
+            "run = 3",
+            "goto home",
+            "2 m",
+            "",
+            "set = 3",
+            "why = 3",
+            "fork = 2 m",
+            "plot = 3 m",
+            "compare",
+        ] {
             assert_eq!(of(language), None, "{language}");
         }
     }

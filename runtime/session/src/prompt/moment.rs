@@ -1,12 +1,14 @@
 //! A moment of the prompt's vehicle, all of it one value; and the moments that were.
 
+use super::saved::reported;
+use super::vehicle::{PastVehicle, PromptVehicle};
 use albacore_lang::prompt::{Left, Named};
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_navigation::Trust;
-use albacore_program::{number, senses};
+use albacore_program::{ReportSite, number, senses};
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
-use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, Vehicle, VehicleError};
+use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, VehicleError};
 use std::collections::VecDeque;
 
 /// What was sensed in so many ticks is kept for what begins later: 20 s, longer than any sensor is silent.
@@ -21,11 +23,13 @@ const PINNED_MAX: usize = 64;
 /// The vehicle and what it is doing, with a tick that is sensed and not yet commanded.
 #[derive(Clone)]
 pub struct Moment {
-    pub vehicle: Simulator,
+    pub vehicle: PromptVehicle,
     pub snapshot: Snapshot,
     /// The tick of the snapshot.
     pub tick: u64,
     pub task: Option<Task>,
+    /// The mission of the script that has ended last: its trace, and how.
+    pub ended: Option<Ended>,
     /// The values that have got a name by `let` and `var`.
     names: Vec<Named>,
     recent: VecDeque<(u64, Vec<Sample>)>,
@@ -34,6 +38,19 @@ pub struct Moment {
     trust: Trust,
     /// What the vehicle gave notice of and what was noticed of it, with its tick, and is not told yet.
     notices: Vec<(u64, String)>,
+}
+
+/// A mission of the script that has ended.
+#[derive(Clone)]
+pub struct Ended {
+    pub outcome: Outcome,
+    pub trace: BehaviorTrace,
+    /// The tick in which it began.
+    pub began: u64,
+    /// The places that report in it.
+    pub sites: Vec<ReportSite>,
+    /// What was reported: which of them, and its words.
+    pub reported: Vec<(u32, Vec<f64>)>,
 }
 
 /// What is under way: a line, or the mission of the script.
@@ -46,13 +63,23 @@ pub struct Task {
     vars: Vec<Left>,
     /// The line, or the mission's name.
     pub text: String,
-    trace: BehaviorTrace,
+    /// What happened in it.
+    pub trace: BehaviorTrace,
+    /// The tick in which it began.
+    pub began: u64,
+    /// What it has reported: from which place of the program, and the words.
+    reported: Vec<(u32, Vec<f64>)>,
 }
 
 impl Task {
     /// The mission of the script, called by its name.
     pub fn mission(machine: Machine, name: &str) -> Self {
         Task::new(machine, None, Vec::new(), name)
+    }
+
+    /// Whether it is the mission of the script.
+    pub fn is_mission(&self) -> bool {
+        self.left.is_none()
     }
 
     /// A line, and the `var`s that it may assign.
@@ -85,7 +112,8 @@ impl Task {
     fn new(machine: Machine, left: Option<Left>, vars: Vec<Left>, text: &str) -> Self {
         let header = Header { mission: String::new(), scenario: String::new(), seed: 0, tick_s: TICK_S };
         let trace = BehaviorTrace::new(machine.program(), &header);
-        Task { machine, left, vars, text: text.to_string(), trace }
+        let began = machine.state().tick;
+        Task { machine, left, vars, text: text.to_string(), trace, began, reported: Vec::new() }
     }
 
     /// What happened in a tick, as lines. That a line of the prompt is a mission is nobody's concern.
@@ -106,6 +134,7 @@ impl Task {
             })
             .cloned()
             .collect();
+        self.reported.extend(events.iter().filter_map(reported));
         let told = self.trace.len();
         self.trace.tick(tick, self.machine.position(), &events);
         self.trace.since(told).for_each(say);
@@ -121,24 +150,38 @@ impl Task {
 
 impl Moment {
     /// The first moment in which the vehicle is ours.
-    pub fn first(mut vehicle: Simulator) -> Result<Self, VehicleError> {
+    pub fn first(vehicle: Simulator) -> Result<Self, VehicleError> {
+        let mut moment = Moment::at_start(PromptVehicle::Simulated(Box::new(vehicle)))?;
+        moment.note();
+        moment.sense()?;
+        Ok(moment)
+    }
+
+    /// The first tick of a run that is over, in which its mission is about to begin.
+    pub fn of_past(vehicle: PastVehicle, machine: Machine) -> Result<Self, VehicleError> {
+        let mut moment = Moment::at_start(PromptVehicle::Past(vehicle))?;
+        moment.note();
+        let name = machine.program().mission.name.clone();
+        moment.task = Some(Task::mission(machine, &name));
+        Ok(moment)
+    }
+
+    fn at_start(mut vehicle: PromptVehicle) -> Result<Self, VehicleError> {
         let mut snapshot = Snapshot::default();
         vehicle.sense(&mut snapshot)?;
         vehicle.take_over()?;
-        let mut moment = Moment {
+        Ok(Moment {
             vehicle,
             snapshot,
             tick: 0,
             task: None,
+            ended: None,
             names: Vec::new(),
             recent: VecDeque::new(),
             command: None,
             trust: Trust::default(),
             notices: Vec::new(),
-        };
-        moment.note();
-        moment.sense()?;
-        Ok(moment)
+        })
     }
 
     fn sense(&mut self) -> Result<(), VehicleError> {
@@ -154,7 +197,11 @@ impl Moment {
 
     /// Notes what this tick gives notice of, as a run does.
     fn note(&mut self) {
-        let doubts = self.trust.look(self.tick, &mut self.snapshot, self.command.as_ref());
+        // What a run has left was looked at in the run, and holds what was found.
+        let doubts = match self.vehicle.is_past() {
+            true => Vec::new(),
+            false => self.trust.look(self.tick, &mut self.snapshot, self.command.as_ref()),
+        };
         let notices = self.vehicle.notices().into_iter().chain(doubts);
         self.notices.extend(notices.map(|notice| (self.tick, notice)));
     }
@@ -205,7 +252,14 @@ impl Moment {
             task.assign(&mut self.names);
             if task.machine.outcome().is_some() {
                 let left = task.left();
-                self.task = None;
+                if let Some(task) = self.task.take()
+                    && task.left.is_none()
+                    && let Some(outcome) = task.machine.outcome()
+                {
+                    let Task { machine, trace, began, reported, .. } = task;
+                    let sites = machine.program().reports.clone();
+                    self.ended = Some(Ended { outcome, trace, began, sites, reported });
+                }
                 left.into_iter().for_each(|left| self.name(left));
                 return Ok(true);
             }
@@ -222,7 +276,7 @@ impl Moment {
 
     /// Nothing to do: neither ahead nor up nor down.
     fn still(&self) -> Command {
-        let truth = self.vehicle.truth();
+        let truth = self.vehicle.truth().unwrap_or_default();
         Command::still(truth.heading, truth.depth)
     }
 
@@ -246,6 +300,7 @@ impl Moment {
 }
 
 /// The moments that were: some of them, from which the others are computed.
+#[derive(Clone)]
 pub struct Past {
     every: u64,
     kept: Vec<Moment>,

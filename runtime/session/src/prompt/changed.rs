@@ -1,0 +1,143 @@
+//! Parameters that are set and scripts that are read again while their mission is under way: it is run again from its start, as if
+//! it had always been so.
+
+use super::moment::Task;
+use super::opening::{Loaded, OpenError};
+use super::{Answer, Listener, Prompt, Say, wrong};
+use crate::difference::deed_differences;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// So many differences from what it did before are told.
+const TOLD_MAX: usize = 5;
+
+impl Prompt {
+    pub(super) fn set(&mut self, name: &str, value: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let before = self.opening.set.clone();
+        let is_it = |text: &String| text.split_once('=').is_some_and(|(set, _)| set.trim() == name);
+        self.opening.set.retain(|text| !is_it(text));
+        self.opening.set.push(format!("{name}={value}"));
+        let answer = self.change(interrupted, say);
+        if answer != Answer::Done {
+            self.opening.set = before;
+        }
+        answer
+    }
+
+    pub(super) fn reload(&mut self, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        if self.now.vehicle.is_past() {
+            let help =
+                "`set lambda = 4 s` changes a parameter; `albacore replay RUN --script FILE.alb` takes another script";
+            say(Say::Error("the script of a run that is over is as it was", Some(help)));
+            return Answer::Wrong;
+        }
+        if self.opening.script.is_none() {
+            let help = "open the prompt with a script: `albacore repl MISSION.alb`";
+            say(Say::Error("there is no script to be read again", Some(help)));
+            return Answer::Wrong;
+        }
+        self.change(interrupted, say)
+    }
+
+    /// Reads the script again, and runs its mission again if it is under way.
+    fn change(&mut self, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let Some(before) = self.load_again(say) else { return Answer::Wrong };
+        let Some(began) = self.now.task.as_ref().filter(|task| task.is_mission()).map(|task| task.began) else {
+            say(Say::Text("from the next `start` on"));
+            return Answer::Done;
+        };
+        match self.run_again(began, interrupted) {
+            Ok(told) => {
+                told.iter().for_each(|line| say(Say::Text(line)));
+                let under_way = if self.now.task.is_some() { "" } else { "  the mission is over" };
+                say(Say::Text(&format!("{}{under_way}", self.now.place())));
+                Answer::Done
+            }
+            Err(what) => {
+                self.loaded = before;
+                wrong(&what, say)
+            }
+        }
+    }
+
+    /// Reads the script again as it is in its file, with what is set, and all lines that were entered; gives what was there before. None:
+    /// what is in the way has been said, and all is as it was.
+    pub(super) fn load_again(&mut self, say: &mut Listener) -> Option<Loaded> {
+        let loaded = match self.opening.load() {
+            Ok(loaded) => loaded,
+            Err(OpenError::File(error)) => {
+                say(Say::Error(&error.message, error.help.as_deref()));
+                return None;
+            }
+            Err(OpenError::Script(found)) => {
+                say(Say::Findings(&found.0, &found.1));
+                return None;
+            }
+            Err(OpenError::Asked(what, help)) => {
+                say(Say::Error(&what, help.as_deref()));
+                return None;
+            }
+        };
+        if loaded.scenario != self.loaded.scenario {
+            let help = "leave, and open the prompt with it: `albacore repl FILE.alb --set NAME=VALUE`";
+            say(Say::Error("this changes the world, which has begun", Some(help)));
+            return None;
+        }
+        let before = std::mem::replace(&mut self.loaded, loaded);
+        let entered = std::mem::take(&mut self.entered);
+        for text in &entered {
+            let mut is_wrong = false;
+            self.line(text, &AtomicBool::new(false), &mut |said| match said {
+                Say::Text(_) => {}
+                Say::Findings(findings, _) if findings.iter().all(|f| f.severity != crate::Severity::Error) => {}
+                other => {
+                    is_wrong = true;
+                    say(other);
+                }
+            });
+            if is_wrong {
+                say(Say::Error("a line that was typed before means nothing in the script as it is now", None));
+                (self.loaded, self.entered) = (before, entered);
+                return None;
+            }
+        }
+        self.look_ahead();
+        Some(before)
+    }
+
+    /// Runs the mission again from the tick in which it began to the present one; tells what it did otherwise.
+    fn run_again(&mut self, began: u64, interrupted: &AtomicBool) -> Result<Vec<String>, String> {
+        let missing = || "the moment in which the mission began is not remembered any more".to_string();
+        let mut moment = self.past.before(began).filter(|moment| moment.tick == began).ok_or_else(missing)?;
+        let program = self.loaded.mission.clone().ok_or("the script has no mission any more")?;
+        let name = program.mission.name.clone();
+        let machine = self.machine_in(&moment, program)?;
+        moment.task = Some(Task::mission(machine, &name));
+        let mut past = self.past.clone();
+        past.forget_after(began);
+        past.pin(&moment);
+        while moment.tick < self.now.tick {
+            if interrupted.swap(false, Ordering::Relaxed) {
+                return Err("interrupted: all is as it was".to_string());
+            }
+            let is_over = moment.step(&mut |_| {}).map_err(|error| error.to_string())?;
+            match is_over {
+                true => past.pin(&moment),
+                false => past.note(&moment),
+            }
+        }
+        let traces =
+            [&self.now, &moment].map(|moment| moment.mission_trace().map_or_else(String::new, |t| t.to_string()));
+        let (differences, _) = deed_differences(&traces);
+        let mut told = match differences.first() {
+            None => vec!["run again from its start: the same up to now".to_string()],
+            Some(_) => vec!["run again from its start (- before, + now):".to_string()],
+        };
+        told.extend(differences.iter().take(TOLD_MAX).map(|difference| difference.line()));
+        if differences.len() > TOLD_MAX {
+            told.push(format!("  and {} more", differences.len() - TOLD_MAX));
+        }
+        moment.keep_names(self.now.names().to_vec());
+        (self.now, self.past) = (moment, past);
+        Ok(told)
+    }
+}
