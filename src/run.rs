@@ -12,13 +12,16 @@ use crate::synced::Synced;
 use crate::vehicle::told;
 use crate::{interruption, message, output, zoom};
 use albacore_session::{
-    HostClock, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, Script, Sink, Summary, WrittenUrl,
+    FieldLog, HostClock, LOG_BYTES_MAX, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, SOURCE_BYTES_MAX,
+    Script, Sink, Summary, WrittenUrl, column_names, read_file,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -28,6 +31,9 @@ const REPORTS_TOLD_MAX: usize = 20;
 const VALUE_CHARS_MAX: usize = 160;
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
+
+/// A plan, a run of it at its first tick, and what is raised when nothing is left to go on with.
+type Prepared = (Plan, MissionRun, Arc<AtomicBool>);
 
 /// Check a mission script and run it.
 #[derive(clap::Args)]
@@ -46,6 +52,13 @@ pub struct Run {
     /// `udp:HOST:PORT?dialect=recon`. `dialect` may be left out where the vehicle of the mission's scenario says it.
     #[arg(long, value_name = "URL", conflicts_with_all = ["scenario", "texts"])]
     link: Option<String>,
+    /// Play a log of the field through the mission: `dive.csv`, or `dive.alog` of MOOS. It tells what the mission would have done; nothing
+    /// is driven.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "texts", "link", "rate"])]
+    log: Option<PathBuf>,
+    /// What the columns of the log are, a line for each that has another name than in our tables: `depth (m) = Depth_m`.
+    #[arg(long, value_name = "FILE", requires = "log")]
+    columns: Option<PathBuf>,
     /// How many times faster than real time; else a simulation runs as fast as it can, and a vehicle in real time.
     #[arg(long, value_name = "N", value_parser = clock::rate, allow_negative_numbers = true)]
     rate: Option<f64>,
@@ -86,7 +99,7 @@ impl Run {
             Err(exit) => return exit,
         };
         let started = now();
-        let (plan, mut run) = match self.prepare(&script) {
+        let (plan, mut run, is_over) = match self.prepare(&script) {
             Ok(prepared) => prepared,
             Err(exit) => return exit,
         };
@@ -126,7 +139,7 @@ impl Run {
         if let Some((journal, changes)) = journal {
             run.with_journal(journal, &changes);
         }
-        let outcome = self.drive(&mut run, &plan, &mut kept, &interrupted);
+        let outcome = self.drive(&mut run, &mut kept, &interrupted, &is_over);
         let summary = run.summary(printer.wall_s());
         warn_of_faults_after(std::iter::once(&plan), summary.sim_time_s);
         if self.zoom.as_ref().is_some_and(|ticks| *ticks.start() > summary.ticks) {
@@ -140,8 +153,11 @@ impl Run {
     }
 
     /// The plan, and a run of it at its first tick: in a simulated world or on a link.
-    fn prepare(&self, script: &Script) -> Result<(Plan, MissionRun), Exit> {
+    fn prepare(&self, script: &Script) -> Result<Prepared, Exit> {
         let refused = |error| refused(&error);
+        if let Some(log) = &self.log {
+            return self.played(script, log);
+        }
         let Some(link) = &self.link else {
             let plan = self.choice.plan(script, &self.script)?;
             let plan = plan.with_faults(&self.faults.read()?).map_err(refused)?;
@@ -149,7 +165,7 @@ impl Run {
             let bar = bar(self.json, &format!("{} before the run", plan.scenario_name));
             let run = MissionRun::new(&plan, self.seed);
             bar.finish_and_clear();
-            return Ok((plan, run.map_err(refused)?));
+            return Ok((plan, run.map_err(refused)?, Arc::default()));
         };
         let usage = |error| told(&error, Exit::Usage);
         let url = WrittenUrl::parse(link).map_err(usage)?;
@@ -161,7 +177,39 @@ impl Run {
             .map_err(|error| told(&error, Exit::Failed))?;
         let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
         message::write(&message::line(&format!("link open to {url}")));
-        Ok((plan, run))
+        Ok((plan, run, Arc::default()))
+    }
+
+    /// The plan and a run of it on what a log of the field holds.
+    fn played(&self, script: &Script, path: &Path) -> Result<Prepared, Exit> {
+        let unreadable = |path: &Path, error: &dyn std::fmt::Display| {
+            message::error(&format!("`{}` cannot be read: {error}", path.display()), None);
+            Exit::Usage
+        };
+        let bytes = read_file(path, LOG_BYTES_MAX).map_err(|error| unreadable(path, &error))?;
+        let names = match &self.columns {
+            None => BTreeMap::new(),
+            Some(columns) => {
+                let text = read_file(columns, SOURCE_BYTES_MAX as u64).map_err(|error| unreadable(columns, &error))?;
+                column_names(&String::from_utf8_lossy(&text)).map_err(|fault| {
+                    message::error(&format!("`{}`: {}", columns.display(), fault.message), Some(&fault.help));
+                    Exit::Usage
+                })?
+            }
+        };
+        let is_alog = path.extension().is_some_and(|ending| ending == "alog");
+        let (file, mission) = (self.script.display().to_string(), self.choice.mission.as_deref());
+        let plan =
+            Plan::on_link(script, &file, mission, &format!("log {}", path.display())).map_err(|e| refused(&e))?;
+        let vehicle = FieldLog { bytes: &bytes, is_alog, names }.vehicle(&plan).map_err(|fault| {
+            message::error(&format!("`{}`: {}", path.display(), fault.message), Some(&fault.help));
+            Exit::Usage
+        })?;
+        let told = vehicle.senses().collect::<Vec<_>>().join(", ");
+        message::write(&message::line(&format!("the log tells {told}")));
+        let is_over = vehicle.is_over();
+        let run = MissionRun::on_link(&plan, self.seed, Box::new(vehicle)).map_err(|e| refused(&e))?;
+        Ok((plan, run, is_over))
     }
 
     /// What was changed for this run, as the journal keeps it.
@@ -191,15 +239,25 @@ impl Run {
     }
 
     /// Ticks in a simulated world until the mission ends or the person interrupts it.
-    fn drive(&self, run: &mut MissionRun, plan: &Plan, kept: &mut RunFolder, interrupted: &AtomicBool) -> Outcome {
-        let bar = bar(self.json, &plan.program.mission.name);
+    fn drive(
+        &self,
+        run: &mut MissionRun,
+        kept: &mut RunFolder,
+        interrupted: &AtomicBool,
+        is_over: &AtomicBool,
+    ) -> Outcome {
+        let bar = bar(self.json, "");
         let mut pace = self.rate.map(Pace::new);
         loop {
             if let Some(pace) = &mut pace {
                 std::thread::sleep(pace.left(false));
                 pace.begin();
             }
-            let running = if interrupted.load(Ordering::Relaxed) { run.interrupt() } else { run.step() };
+            let running = match () {
+                () if interrupted.load(Ordering::Relaxed) => run.interrupt(),
+                () if is_over.load(Ordering::Relaxed) => run.end_because("the log ends here"),
+                () => run.step(),
+            };
             if run.tick() > 0 {
                 kept.ticks();
             }

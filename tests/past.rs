@@ -121,3 +121,53 @@ fn what_is_no_run_is_said() {
     let all: String = asked.iter().map(|arguments| told(&folder, arguments)).collect();
     insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!("what_is_no_run", all) });
 }
+
+/// A log of the field, from another recorder: its columns by their names, on the globe, and as a log of MOOS.
+#[test]
+fn a_log_of_the_field_is_played_through_a_mission() {
+    let folder = project("field");
+    let (mut table, mut moos) = ("t,Lat,Lon,HDG,COG,Depth_m,Alt,note\n".to_string(), "%% LOGSTART 1\n".to_string());
+    for fifth in 0..500 {
+        let time = f64::from(fifth) / 5.0;
+        let north = if time < 70.0 { 1.5 * time } else { 210.0 - 1.5 * time };
+        let (latitude, heading) = (36.18 + north / 110_970.0, if time < 70.0 { 0 } else { 180 });
+        table += &format!("{time:.1},{latitude:.7},-75.74,{heading},{heading},3.0,10.1,\"a, b\"\n");
+        for (name, value) in [("NAV_X", 0.0), ("NAV_Y", north), ("NAV_HEADING", f64::from(heading))] {
+            moos += &format!("{time:.3} {name} uSim {value}\n");
+        }
+        moos += &format!("{time:.3} NAV_DEPTH uSim 3\n{time:.3} NAV_ALTITUDE uSim 10.1\n{time:.3} MODE helm ACTIVE\n");
+    }
+    std::fs::write(folder.join("dive.csv"), &table).unwrap();
+    std::fs::write(folder.join("dive.alog"), &moos).unwrap();
+    let names = "# what the recorder calls them\ntime (s) = t\nlatitude (deg) = Lat\nlongitude (deg) = Lon\n\
+                 heading (deg) = HDG\ncourse (deg) = COG\ndepth (m) = Depth_m\naltitude (m) = Alt\n";
+    std::fs::write(folder.join("columns.txt"), names).unwrap();
+    std::fs::write(folder.join("moos.txt"), "course (deg) = NAV_HEADING\n").unwrap();
+    std::fs::write(folder.join("wrong.txt"), "depth\n").unwrap();
+    std::fs::write(folder.join("cut.alog"), "12.0 NAV_X\nx y z 3\n").unwrap();
+    std::fs::write(folder.join("torn.csv"), table.replace("12.0,", "noon,")).unwrap();
+    let asked: [&[&str]; 11] = [
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "columns.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.alog", "--columns", "moos.txt", "--out", "moos"],
+        &["replay", "moos"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "columns.txt", "--set", "turns=10", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.alog", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "wrong.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "cut.alog", "--no-out"],
+        &["run", "patrol.alb", "--log", "torn.csv", "--columns", "columns.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "none.csv", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--in", "calm"],
+    ];
+    let all: String = asked.iter().map(|arguments| told(&folder, arguments)).collect();
+    // How long it took is no matter of the run.
+    let without_time = |line: &str| match line.split_once("of the vehicle's time in ") {
+        Some((before, after)) => {
+            let after = after.split_once(" s, ").map_or("", |(_, after)| after);
+            format!("{before}of the vehicle's time in [time], {after}\n")
+        }
+        None => format!("{line}\n"),
+    };
+    let all: String = all.lines().map(without_time).collect();
+    insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!("a_log_of_the_field", all) });
+}

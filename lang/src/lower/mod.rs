@@ -265,7 +265,8 @@ impl<'a> Lowering<'a> {
 
     fn emit(&mut self, op: impl Into<Op>) -> Addr {
         self.emitted += 1;
-        if self.program.ops.len() < INSTRUCTIONS_MAX {
+        // With room for the terms of a condition, which are counted while they are made.
+        if self.emitted <= 2 * INSTRUCTIONS_MAX as u64 {
             self.program.ops.push(op.into());
         }
         self.program.ops.len() as Addr - 1

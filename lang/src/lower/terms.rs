@@ -40,6 +40,8 @@ impl<'a> Lowering<'a> {
         if texts.len() < 2 {
             return None;
         }
+        // What no run executes is none of its instructions.
+        let emitted = self.emitted;
         let value = self.lasting(texts.len() as u32);
         let entry = self.here();
         for (word, _) in (value..).zip(&texts) {
@@ -48,6 +50,7 @@ impl<'a> Lowering<'a> {
         let fails = self.ask_terms(&part, &mut value.clone());
         self.land_all(fails);
         self.emit(Op::Return);
+        self.emitted = emitted;
         Some(Terms { code: Code { entry, value }, texts })
     }
 

@@ -3,6 +3,7 @@
 //! [`survey`] reads the depths of a survey of the bottom, [`area`] the polygons that charting programs save, [`recording`] a plume that was computed
 //! elsewhere, [`series`] a column of what a run recorded. Whatever the bytes are, reading them ends, and takes no more room than a small multiple of theirs.
 
+pub mod alog;
 pub mod area;
 mod fault;
 pub mod recording;

@@ -8,6 +8,7 @@ mod data;
 mod departure;
 mod difference;
 mod faults;
+mod field_log;
 mod files;
 mod kept;
 mod link;
@@ -51,6 +52,7 @@ pub use check::{findings, findings_in};
 pub use departure::{Departure, Parting, depart};
 pub use difference::{BehaviorDifference, DeedDifference, End, ReportDifference, RunDifference};
 pub use faults::{Faults, load_faults};
+pub use field_log::{FieldLog, LOG_BYTES_MAX, LoggedVehicle, column_names};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,
     standard_modules,

@@ -11,6 +11,7 @@ mod moment;
 mod opening;
 mod plot;
 mod saved;
+mod time;
 mod timeline;
 mod until;
 mod vehicle;
@@ -24,13 +25,13 @@ use albacore_lang::source::Sources;
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_program::{Program, number, senses};
 use albacore_sim::Scenario;
-use albacore_vehicle::{Control, Snapshot, TICK_S, measurements};
+use albacore_vehicle::{Control, Snapshot, measurements};
 use command::{Command, HELP, TICKS_MAX};
 use moment::{Moment, Past, Task};
 use opening::Loaded;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use timeline::Fork;
 use until::Until;
 
@@ -381,100 +382,6 @@ impl Prompt {
         self.now.task = None;
         self.past.pin(&self.now);
         say(Say::Text(&format!("{}  stopped", self.now.place())));
-    }
-
-    /// Lets time go by until what is under way ends, or what is waited for comes, but so many ticks at most.
-    fn drive(&mut self, ticks: u64, mut until: Until, interrupted: &AtomicBool, say: &mut Listener) {
-        let was_busy = self.now.task.is_some();
-        let last = self.now.tick + ticks;
-        while self.now.tick < last {
-            if interrupted.swap(false, Ordering::Relaxed) {
-                self.stopped = true;
-                return self.stop(say);
-            }
-            if until.has_come(self) {
-                break;
-            }
-            if self.now.vehicle.is_at_end() {
-                say(Say::Text("the journal ends here"));
-                break;
-            }
-            let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
-                Ok(ended) => ended,
-                Err(error) => {
-                    self.now.task = None;
-                    return say(Say::Error(&error.to_string(), None));
-                }
-            };
-            if ended {
-                self.past.pin(&self.now);
-                break;
-            }
-            self.past.note(&self.now);
-        }
-        let is_busy = was_busy && self.now.task.is_some();
-        let on = match until.told() {
-            Some(told) => told,
-            None if is_busy && ticks == TICKS_MAX => "  still under way".to_string(),
-            None => String::new(),
-        };
-        say(Say::Text(&format!("{}{on}", self.now.place())));
-    }
-
-    /// Goes back in time: to the moment before, and on from there as it was. What has got a name since keeps it.
-    fn back(&mut self, ticks: u64, say: &mut Listener) -> Answer {
-        let to = self.now.tick.saturating_sub(ticks);
-        let Some(mut moment) = self.past.before(to) else {
-            let earliest = self.past.earliest();
-            let lived = (self.now.tick - earliest) as f64 * TICK_S;
-            let most = number::fixed(lived, 1);
-            let what = format!("time goes back {most} s at most from here");
-            let help = match lived > 0.0 {
-                true => format!("`back {most} s` goes back to the earliest moment that is remembered"),
-                false => "this is the earliest moment".to_string(),
-            };
-            say(Say::Error(&what, Some(&help)));
-            return Answer::Wrong;
-        };
-        while moment.tick < to {
-            if let Err(error) = moment.step(&mut |_| {}) {
-                return wrong(&error.to_string(), say);
-            }
-        }
-        moment.keep_names(self.now.names().to_vec());
-        self.now = moment;
-        self.past.forget_after(to);
-        let under_way = self.now.task.as_ref().map_or("", |_| "  under way again: `run` lets it go on");
-        say(Say::Text(&format!("{}{under_way}", self.now.place())));
-        Answer::Done
-    }
-
-    /// A time typed after `run` or `back`, in ticks, at least one.
-    fn ticks(&mut self, text: &str, say: &mut Listener) -> Option<u64> {
-        let known = self.known();
-        let read = self.loaded.lines.read(&*self.loaded.files, text, &known, self.origin());
-        if !read.findings.is_empty() {
-            say(Say::Findings(&read.findings, self.loaded.lines.sources()));
-        }
-        let drive = match read.line? {
-            Line::Value(drive) if drive.value.as_ref().is_some_and(Left::is_duration) => drive,
-            _ => {
-                say(Say::Error("this takes a time", Some("for example `run 5 min`, `back 30 s`")));
-                return None;
-            }
-        };
-        match self.value(&drive, &known) {
-            Ok((_, value)) => {
-                let seconds = value.words.first().copied().unwrap_or(0.0);
-                let ticks = (seconds / TICK_S - 1e-9).ceil();
-                if (1.0..=TICKS_MAX as f64).contains(&ticks) {
-                    return Some(ticks as u64);
-                }
-                say(Say::Error("this takes a time between 100 ms and 10 h", None));
-            }
-            Err(what) => say(Say::Error(&what, None)),
-        }
-        None
     }
 
     fn active(&self) -> String {

@@ -167,7 +167,12 @@ impl Run {
 
     /// Ends the run because the person says so.
     pub fn interrupt(&mut self) -> Running {
-        self.driver.interrupt();
+        self.end_because("interrupted")
+    }
+
+    /// Ends the run, for a reason that no mission knows.
+    pub fn end_because(&mut self, why: &str) -> Running {
+        self.driver.interrupt(why);
         self.step()
     }
 

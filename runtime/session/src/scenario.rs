@@ -6,7 +6,7 @@ mod defaults;
 mod listed;
 mod named;
 mod objected;
-mod played;
+pub(crate) mod played;
 mod recorded;
 
 use crate::files::{FileError, Files};

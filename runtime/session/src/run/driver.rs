@@ -129,10 +129,10 @@ impl Driver {
         matches!(self.next, Next::End(_))
     }
 
-    /// Lets the next step end the run because the person says so.
-    pub fn interrupt(&mut self) {
+    /// Lets the next step end the run because the person says so, or nothing is left to go on with.
+    pub fn interrupt(&mut self, why: &str) {
         if matches!(self.next, Next::Tick) {
-            self.next = Next::End(Cause::Outside(Outcome::Interrupted, "interrupted".into()));
+            self.next = Next::End(Cause::Outside(Outcome::Interrupted, why.into()));
         }
     }
 

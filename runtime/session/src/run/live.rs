@@ -89,7 +89,7 @@ impl Run {
 fn drive(mut driver: Driver, interrupted: &AtomicBool, mut lines: Lines) -> Driver {
     loop {
         if interrupted.load(Ordering::Relaxed) {
-            driver.interrupt();
+            driver.interrupt("interrupted");
         }
         let ending = driver.is_ending();
         let mut record = TickRecord::default();

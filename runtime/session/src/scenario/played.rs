@@ -111,7 +111,7 @@ fn measured(name: &str) -> Option<(u16, Vec<Part>)> {
 
 /// The columns of a part of an input, each with what its numbers are. A table may lack those of a field, such as a sigma: it is 0 then, as what is
 /// exact has it.
-fn columns<'a>(name: &str, part: &'a Part) -> Vec<(Column, &'a Shape)> {
+pub fn columns<'a>(name: &str, part: &'a Part) -> Vec<(Column, &'a Shape)> {
     let full = part.label.map_or_else(|| name.to_string(), |label| cells::field(name, label));
     let column = |head| Column {
         head,
