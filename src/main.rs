@@ -8,6 +8,7 @@ mod disk;
 mod doc;
 mod exit;
 mod explain;
+mod export;
 mod fmt;
 mod graph;
 mod interruption;
@@ -62,6 +63,10 @@ enum Verb {
     ///
     /// The machine is fed with the samples of the journal: bit for bit the same, or, with another script or parameter, until it does otherwise.
     Replay(replay::ReplayRun),
+    /// Write a run for other programs: as a table, on a map, or as a log.
+    ///
+    /// All is read from the journal; of one that is cut short what is whole is written, and the offset is told.
+    Export(export::Export),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -114,6 +119,7 @@ fn main() -> ExitCode {
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Replay(replay) => replay.run(),
+        Verb::Export(export) => export.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

@@ -5,6 +5,7 @@ pub mod campaign;
 mod check;
 mod compatibility;
 mod data;
+mod exported;
 mod faults;
 mod files;
 mod kept;
@@ -28,6 +29,7 @@ pub mod threads;
 mod wanted;
 
 pub use albacore_diagram as diagram;
+pub use albacore_export as export;
 pub use albacore_lang::code::Code;
 pub use albacore_lang::cost::{Cost, grouped};
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
@@ -44,6 +46,7 @@ pub use albacore_trace::{Difference, Digest, first_difference, first_foreign_lin
 pub use albacore_wording::nearest;
 pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};
+pub use exported::{ExportedRun, exported};
 pub use faults::{Faults, load_faults};
 pub use files::{
     FileError, Files, is_known_everywhere, load, load_for, load_library, load_or_module, load_text, read, read_input,

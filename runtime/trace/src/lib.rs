@@ -20,3 +20,4 @@ pub use compare::{Difference, first_difference, first_foreign_line, same_behavio
 pub use digest::Digest;
 pub use picture::{Cells, Depths, Picture};
 pub use record::{Ending, Step, TickRecord, areas};
+pub use words::control_name;
