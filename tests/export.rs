@@ -249,7 +249,7 @@ fn the_same_run_gives_the_same_bytes_and_a_bare_journal_a_folder_beside_it() {
     assert!(bare("track.csv") == bytes(&folder, "track.csv"));
     let file = bare("track.nc");
     let file = NetCdf::read(&file);
-    assert_eq!(file.text("time", "units"), "seconds since 1970-01-01T00:00:00Z");
+    assert_eq!(file.text("time", "units"), "seconds since 1970-01-01T00:00:00.000Z");
     assert!(file.text("", "remark").contains("is not known"));
 }
 

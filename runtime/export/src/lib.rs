@@ -63,7 +63,7 @@ pub const FORMATS: [Format; 7] = [
     },
     Format {
         name: "netcdf",
-        about: "All columns as a CF trajectory in NetCDF classic, for xarray, MATLAB and Panoply",
+        about: "All columns as a trajectory by the CF conventions, in NetCDF classic",
         file: "track.nc",
         is_on_globe: false,
         make: netcdf::make,
@@ -77,7 +77,7 @@ pub const FORMATS: [Format; 7] = [
     },
     Format {
         name: "alog",
-        about: "All columns and events as a MOOS log, for the alog tools and alogview",
+        about: "All columns and events as a log of MOOS",
         file: "track.alog",
         is_on_globe: false,
         make: alog::make,

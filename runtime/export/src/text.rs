@@ -22,13 +22,10 @@ pub fn seconds(tick: u64) -> String {
     number::seconds(tick).trim_end_matches(" s").trim_start().to_string()
 }
 
-/// A moment in milliseconds since the beginning of 1970, as ISO 8601 has it.
+/// A moment in milliseconds since the beginning of 1970, as ISO 8601 has it: all in one form, which programs take for granted.
 pub fn moment(ms: i64) -> String {
     let whole = calendar::written(ms.div_euclid(1000) as f64);
-    match (whole.strip_suffix('Z'), ms.rem_euclid(1000)) {
-        (_, 0) | (None, _) => whole,
-        (Some(before), ms) => format!("{before}.{ms:03}Z"),
-    }
+    whole.strip_suffix('Z').map(|whole| format!("{whole}.{:03}Z", ms.rem_euclid(1000))).unwrap_or(whole.clone())
 }
 
 /// A text in quotes, as JSON has it.
