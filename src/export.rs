@@ -24,7 +24,7 @@ pub struct Export {
     /// The folder for the files; else `export` in the run's folder.
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
-    /// Remove files of these names that are there already.
+    /// Write files anew that are there already.
     #[arg(long)]
     replace: bool,
     /// The script that was run, where the journal does not hold it.

@@ -1,14 +1,17 @@
 //! `albacore export`: files for other programs are well-formed, hold what the journal holds, and take the place of nothing.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot write its own files has failed")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot write its own files has failed")]
 
 mod files;
 
-use albacore_session::journal::Journal;
+use albacore_machine::Machine;
+use albacore_session::journal::{Entry, Gap, Journal, Reader, Writer};
+use albacore_session::{Changes, Plan};
 use files::{Mcap, NetCdf, Table};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 
 const ALL: &str = "--csv --geojson --kml --gpx --netcdf --mcap --alog";
 const FILES: [&str; 7] =
@@ -119,6 +122,63 @@ fn a_table_holds_what_the_journal_holds() {
     }
     let report = &result["reports"][0];
     assert!(table.cell(table.rows.len() - 1, "reported").starts_with("end: (36.1"), "{report}");
+}
+
+/// Several samples of a measurement in one tick, one that was not believed, one that is doubted, and one that is no number.
+#[test]
+fn every_sample_of_a_tick_has_a_cell() {
+    let (folder, _) = run("samples", "box.alb");
+    let bytes = std::fs::read(folder.join("run/journal")).unwrap();
+    let mut reader = Reader::new(&bytes).unwrap();
+    let header = reader.header().clone();
+    let at = |name: &str| header.measurements.iter().position(|known| known.name == name).unwrap() as u16;
+    let (_, plan) = Plan::of_journal(&header, &Changes::default()).unwrap();
+    let mut written = Vec::new();
+    let mut writer = Writer::new(&mut written, &header).unwrap();
+    for entry in reader.by_ref() {
+        let Entry::Step(mut record) = entry else { panic!("a gap") };
+        if record.tick == 5 && record.ending().is_none() {
+            let samples = &mut record.snapshot.samples;
+            samples.retain(|sample| ![at("depth"), at("altitude"), at("heading")].contains(&sample.origin()));
+            record.snapshot.push(at("depth"), &[1.0]);
+            record.snapshot.push(at("depth"), &[2.0]);
+            record.snapshot.push(at("depth"), &[99.0]);
+            record.snapshot.samples.last_mut().unwrap().withhold();
+            record.snapshot.push(at("altitude"), &[7.0]);
+            record.snapshot.samples.last_mut().unwrap().doubt();
+            record.snapshot.push(at("heading"), &[f64::NAN]);
+            (0..5).for_each(|i| record.snapshot.push(at("chemical"), &[f64::from(i) / 100.0]));
+        }
+        // Ten ticks that the disk did not take.
+        if record.tick == 20 {
+            let mut state = Machine::new(Arc::clone(&plan.program), &header.measurements).unwrap().state().clone();
+            state.tick = 30;
+            writer.gap(&Gap { first: 20, last: 29, state: Box::new(state) }).unwrap();
+        }
+        if !(20..30).contains(&record.tick) {
+            writer.step(&record).unwrap();
+        }
+    }
+    std::fs::create_dir(folder.join("made")).unwrap();
+    std::fs::write(folder.join("made/journal"), written).unwrap();
+    let (code, _, said) = albacore(&folder, &format!("export made {ALL}"));
+    assert!(code == Some(0) && said.contains("samples are in no column"), "{said}");
+    let table = Table::read(&std::fs::read_to_string(folder.join("made/export/track.csv")).unwrap());
+    let cell = |head: &str| table.number(5, head);
+    assert_eq!(
+        (cell("depth (m)"), cell("depth.before (m)"), cell("depth.withheld (m)")),
+        (Some(2.0), Some(1.0), Some(99.0))
+    );
+    assert_eq!((cell("altitude (m)"), cell("altitude.doubted"), cell("heading (deg)")), (Some(7.0), Some(1.0), None));
+    let earlier = ["chemical (%)", "chemical.before (%)", "chemical.before_2 (%)", "chemical.before_3 (%)"].map(cell);
+    assert_eq!(earlier, [Some(4.0), Some(3.0), Some(2.0), Some(1.0)]);
+    assert_eq!((table.number(6, "depth.before (m)"), table.number(19, "time (s)")), (None, Some(1.9)));
+    assert_eq!(table.number(20, "time (s)"), Some(3.0));
+    let log = std::fs::read_to_string(folder.join("made/export/track.alog")).unwrap();
+    assert!(log.contains("missing 10 ticks before this are not in the journal"));
+    // No number that is none comes into JSON, whatever the instruments say.
+    let file = Mcap::read(&std::fs::read(folder.join("made/export/track.mcap")).unwrap());
+    assert!(file.of("/state")[5]["heading"].is_null() && file.of("/state")[5]["depth_withheld"] == 99);
 }
 
 #[test]
