@@ -1,7 +1,7 @@
 """Opens every export with readers that others wrote, and holds what they read against the CSV.
 
-    python -m venv /tmp/readers && /tmp/readers/bin/pip install pandas xarray scipy netCDF4 compliance-checker mcap jsonschema lxml fastkml gpxpy geopandas
-    /tmp/readers/bin/python tests/export/readers.py target/release/albacore
+    python -m venv readers && readers/bin/pip install pandas xarray scipy netCDF4 compliance-checker mcap jsonschema lxml fastkml gpxpy geopandas
+    readers/bin/python tests/export/readers.py target/release/albacore
 
 A run in simulation, one over a link, one whose journal is cut short and a campaign are made in a folder that is removed at the end.
 Then the examples of docs/python.md are executed. It prints a line for each reader, and ends with 1 where one disagrees. A reader that is

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// Who writes every line.
 const SOURCE: &str = "albacore";
-/// Where one line is to be read, its length, in `%`.
+/// The lines about the head have so many `%`.
 const RULE: usize = 56;
 
 /// The file.
