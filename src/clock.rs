@@ -55,6 +55,12 @@ impl Utc {
         humantime::parse_rfc3339_weak(text).ok().map(Utc::of)
     }
 
+    /// Milliseconds since the beginning of 1970.
+    pub fn unix_ms(self) -> i64 {
+        let since = self.0.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
+    }
+
     /// So many seconds later.
     pub fn after(self, seconds: f64) -> Self {
         let later = Duration::try_from_secs_f64(seconds).ok().and_then(|later| self.0.checked_add(later));

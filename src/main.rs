@@ -9,6 +9,7 @@ mod disk;
 mod doc;
 mod exit;
 mod explain;
+mod export;
 mod fmt;
 mod graph;
 mod interruption;
@@ -69,6 +70,10 @@ enum Verb {
     Why(why::Why),
     /// Tell how two runs differ: what was done otherwise, and when.
     Diff(diff::Diff),
+    /// Write a run for other programs: as a table, on a map, or as a log.
+    ///
+    /// All is read from the journal; of one that is cut short what is whole is written, and the offset is told.
+    Export(export::Export),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -123,6 +128,7 @@ fn main() -> ExitCode {
         Verb::Replay(replay) => replay.run(),
         Verb::Why(why) => why.run(),
         Verb::Diff(diff) => diff.run(),
+        Verb::Export(export) => export.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

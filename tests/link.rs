@@ -32,6 +32,12 @@ fn there_and_back(name: &str, link: &str) {
     assert!(out.join("run.svg").exists());
     let journal = Journal::read(&std::fs::read(out.join("journal")).unwrap()).unwrap();
     assert!(matches!(journal.ending, Ending::Complete(_)), "{:?}", journal.ending);
+    // Other programs are given it as they are a simulated one, without a truth.
+    let exported = albacore(&["export"]).arg(&out).args(["--csv", "--netcdf", "--mcap"]).output().unwrap();
+    assert_eq!((exported.status.code(), stderr(&exported).as_str()), (Some(0), ""));
+    let table = std::fs::read_to_string(out.join("export/track.csv")).unwrap();
+    assert_eq!(table.lines().count(), journal.ticks.len() + 1);
+    assert!(table.starts_with("time (s),north (m),east (m),latitude (deg)") && !table.contains("truth."));
     vehicle.says("override released");
     vehicle.says("resumes leg");
     // It can be had again.

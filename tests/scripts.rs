@@ -10,6 +10,7 @@ mod diagnostics;
 mod doc;
 mod duck;
 mod explain;
+mod export;
 mod faults;
 mod fmt;
 mod graph;

@@ -65,6 +65,8 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
         &["new", EVIL],
         &["graph", &name, EVIL],
         &["doc", &name],
+        &["export", EVIL, "--csv"],
+        &["export", &name, "--csv"],
     ] {
         let said = said(&folder, arguments);
         assert!(said.contains("\\u{") || said.contains('?'), "{arguments:?}: {said}");
@@ -94,6 +96,38 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
         }
     }
     assert!(read >= 2, "{trace}");
+}
+
+/// A file of every format, of a run whose folder, texts and names are hostile: texts hold nothing unseen, and a table no formula.
+#[test]
+fn what_is_exported_holds_nothing_unseen() {
+    let folder = folder("exported");
+    // No script may hold what is unseen; names of files may, and so may what a vehicle says.
+    let script = SCRIPT.replace("line\\nand =1+1", "<b>&amp;\\\"]]>");
+    std::fs::write(folder.join("north.alb"), script.replace("\"=1+1\": position", "\"=1,<1>\": position")).unwrap();
+    said(&folder, &["run", "north.alb", "--out", EVIL]);
+    let files = ["track.csv", "track.geojson", "track.kml", "track.gpx", "track.alog", "track.mcap", "track.nc"];
+    let formats = ["--csv", "--geojson", "--kml", "--gpx", "--alog", "--mcap", "--netcdf"];
+    let told = said(&folder, &[&["export", EVIL][..], &formats[..]].concat());
+    assert_eq!(told.lines().count(), files.len(), "{told}");
+    for file in files {
+        let bytes = std::fs::read(folder.join(EVIL).join("export").join(file)).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(!text.contains("\u{1b}[2J") && !text.contains(['\u{202e}', '\u{9b}']), "{file}");
+        assert!(file.ends_with("kml") || file.ends_with("gpx") || text.contains("<1>"), "{file}");
+    }
+    let read = |file: &str| std::fs::read_to_string(folder.join(EVIL).join("export").join(file)).unwrap();
+    for file in &files[..5] {
+        assert_eq!(unseen(&read(file)), None, "{file}");
+    }
+    for file in ["track.kml", "track.gpx"] {
+        let text = read(file);
+        let tree = roxmltree::Document::parse(&text).unwrap();
+        assert!(tree.descendants().any(|node| node.text().is_some_and(|text| text.contains(",<1>"))), "{file}");
+    }
+    let table = read("track.csv");
+    assert!(table.contains("\"'=1,<1>: ("), "{}", table.lines().last().unwrap_or_default());
+    assert!(!table.contains(",=") && !table.contains("\"=") && !table.contains(",@") && !table.contains(",+"));
 }
 
 /// What is named over several lines forges no line of a result: of a run, of a test, of a message.

@@ -50,9 +50,11 @@ const VERBS: [&str; 6] = [
     "scenario show box.alb --out s.svg",
     "doc cpt --out out",
 ];
+/// One that needs the run of another.
+const EXPORT: &str = "export out --csv --kml";
 
 /// Names that a temporary file could have, and had.
-const NEIGHBOURS: [&str; 9] = [
+const NEIGHBOURS: [&str; 10] = [
     "plan.part",
     "g.part",
     "s.part",
@@ -62,6 +64,7 @@ const NEIGHBOURS: [&str; 9] = [
     "out/trace.part",
     "out/run.part",
     "out/cpt.part",
+    "out/export.part",
 ];
 
 fn sources(folder: &Path) {
@@ -84,7 +87,7 @@ fn neighbours_of_what_is_written_stay_as_they_are() {
                 std::fs::write(folder.join(name), "mine").unwrap();
             }
         }
-        for words in VERBS {
+        for words in VERBS.into_iter().chain([EXPORT]) {
             assert_eq!(albacore(&folder, words).0, Some(0), "{words}");
         }
         for name in NEIGHBOURS {

@@ -7,6 +7,7 @@ mod compatibility;
 mod data;
 mod departure;
 mod difference;
+mod exported;
 mod faults;
 mod field_log;
 mod files;
@@ -32,6 +33,7 @@ mod wanted;
 mod why;
 
 pub use albacore_diagram as diagram;
+pub use albacore_export as export;
 pub use albacore_lang::code::Code;
 pub use albacore_lang::cost::{Cost, grouped};
 pub use albacore_lang::diagnostic::{Diagnostic, Severity, settle};
@@ -51,6 +53,7 @@ pub use bounded::{Unread, read_all, read_file};
 pub use check::{findings, findings_in};
 pub use departure::{Departure, Parting, depart};
 pub use difference::{BehaviorDifference, DeedDifference, End, ReportDifference, RunDifference};
+pub use exported::{ExportedRun, exported};
 pub use faults::{Faults, load_faults};
 pub use field_log::{FieldLog, LOG_BYTES_MAX, LoggedVehicle, column_names};
 pub use files::{

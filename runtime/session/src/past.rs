@@ -20,33 +20,11 @@ pub struct PastRun {
 impl PastRun {
     /// Reads the journal of a run of a plan, as far as it is whole. What the plan has no names for, since its script has changed, has `?`.
     pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
-        let mut reader = Reader::new(journal)?;
-        let header = reader.header().clone();
+        let header = Reader::new(journal)?.header().clone();
         let mut memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
-        let mut derived = Derived::new(plan, &header);
         let mut in_simulation = false;
-        // Nobody knows of a tick that it was the last one before what follows it is read.
-        let mut held: Option<Box<TickRecord>> = None;
-        for entry in reader.by_ref() {
-            match entry {
-                Entry::Step(mut record) => {
-                    derived.complete(&mut record);
-                    in_simulation |= record.truth.is_some();
-                    let is_end = record.ending().is_some();
-                    if let Some(mut before) = held.replace(record) {
-                        before.is_last = is_end;
-                        memory.take(&before);
-                    }
-                }
-                Entry::Gap(gap) => {
-                    held.take().iter().for_each(|before| memory.take(before));
-                    memory.miss(gap.last - gap.first + 1, gap.state.tick);
-                    derived.lose();
-                }
-            }
-        }
-        held.iter().for_each(|last| memory.take(last));
-        Ok(PastRun { memory, header, ending: reader.into_ending(), in_simulation })
+        let ending = fold(plan, journal, &mut memory, |record| in_simulation |= record.truth.is_some())?;
+        Ok(PastRun { memory, header, ending, in_simulation })
     }
 
     /// What was run.
@@ -73,6 +51,39 @@ impl PastRun {
     pub fn file(&self, file: &RunFile) -> String {
         (file.make)(&self.memory, &WorldAtEnd { in_simulation: self.in_simulation, ..WorldAtEnd::default() })
     }
+}
+
+/// Feeds the records of a journal, as far as it is whole, to a recorder, and shows each; gives how it ends.
+pub(crate) fn fold(
+    plan: &Plan,
+    journal: &[u8],
+    recorder: &mut impl Recorder,
+    mut see: impl FnMut(&TickRecord),
+) -> Result<Ending, Unreadable> {
+    let mut reader = Reader::new(journal)?;
+    let mut derived = Derived::new(plan, reader.header());
+    // Nobody knows of a tick that it was the last one before what follows it is read.
+    let mut held: Option<Box<TickRecord>> = None;
+    for entry in reader.by_ref() {
+        match entry {
+            Entry::Step(mut record) => {
+                derived.complete(&mut record);
+                see(&record);
+                let is_end = record.ending().is_some();
+                if let Some(mut before) = held.replace(record) {
+                    before.is_last = is_end;
+                    recorder.take(&before);
+                }
+            }
+            Entry::Gap(gap) => {
+                held.take().iter().for_each(|before| recorder.take(before));
+                recorder.miss(gap.last - gap.first + 1, gap.state.tick);
+                derived.lose();
+            }
+        }
+    }
+    held.iter().for_each(|last| recorder.take(last));
+    Ok(reader.into_ending())
 }
 
 /// What of a record follows from those before it, and is not in the journal.

@@ -4,6 +4,7 @@
 pub(crate) mod account;
 pub(crate) mod digest;
 pub(crate) mod expectations;
+pub(crate) mod exported;
 pub(crate) mod journal;
 pub(crate) mod notices;
 pub(crate) mod recorded;

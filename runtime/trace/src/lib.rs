@@ -22,3 +22,4 @@ pub use condition::{TriedCondition, TriedTerm};
 pub use digest::Digest;
 pub use picture::{Cells, Depths, Picture};
 pub use record::{Ending, Step, TickRecord, areas};
+pub use words::control_name;
