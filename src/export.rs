@@ -83,10 +83,7 @@ impl Export {
         }
         let changes = Changes { script: self.script.as_deref(), ..Changes::default() };
         let (_, plan) = past.changed(&changes, self.project.as_deref())?;
-        for name in past.changed_since(&plan) {
-            let help = "names of behaviors and reports are those that it has now";
-            message::warning(&format!("`{name}` is not what it was in the run"), help);
-        }
+        past.warn_of_changes(&plan);
         if plan.frame().is_none() {
             on_globe(formats)?;
         }
