@@ -38,6 +38,10 @@ fn there_and_back(name: &str, link: &str) {
     let table = std::fs::read_to_string(out.join("export/track.csv")).unwrap();
     assert_eq!(table.lines().count(), journal.ticks.len() + 1);
     assert!(table.starts_with("time (s),north (m),east (m),latitude (deg)") && !table.contains("truth."));
+    let mut replay = std::process::Command::new(env!("CARGO_BIN_EXE_albacore"));
+    let replayed = replay.arg("replay").arg(&out).output().unwrap();
+    let told = String::from_utf8_lossy(&replayed.stdout).into_owned();
+    assert!(told.contains("the same to the bit") && replayed.status.success(), "{told}{}", stderr(&replayed));
     vehicle.says("override released");
     vehicle.says("resumes leg");
     // It can be had again.
