@@ -64,6 +64,11 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
         &["explain", EVIL],
         &["new", EVIL],
         &["graph", &name, EVIL],
+        &["replay", EVIL],
+        &["why", EVIL],
+        &["why", EVIL, "--at", EVIL],
+        &["diff", EVIL, EVIL],
+        &["repl", &format!("{EVIL}{EVIL}.alb")],
         &["doc", &name],
         &["export", EVIL, "--csv"],
         &["export", &name, "--csv"],
@@ -86,6 +91,16 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
     let evil = format!("{EVIL}.alb");
     std::fs::write(folder.join(&evil), SCRIPT).unwrap();
     said(&folder, &["run", &evil, "--mission", "north", "--out", EVIL]);
+    for arguments in [&["why", EVIL][..], &["why", EVIL, "--at", "1s"], &["replay", EVIL], &["diff", EVIL, EVIL]] {
+        said(&folder, arguments);
+    }
+    // A log of the field may say anything.
+    std::fs::write(folder.join("log.csv"), format!("time (s),{EVIL}\n{EVIL},{EVIL}\n")).unwrap();
+    std::fs::write(folder.join("log.alog"), format!("{EVIL} {EVIL} x 3\n")).unwrap();
+    for log in ["log.csv", "log.alog"] {
+        said(&folder, &["run", &evil, "--log", log, "--no-out"]);
+        said(&folder, &["run", &evil, "--log", log, "--columns", log, "--no-out"]);
+    }
     let trace = std::fs::read_to_string(folder.join(EVIL).join("trace.txt")).unwrap_or_default();
     let files: Vec<PathBuf> = std::fs::read_dir(folder.join(EVIL)).unwrap().map(|f| f.unwrap().path()).collect();
     let mut read = 0;
