@@ -20,6 +20,7 @@ mod past;
 mod plan;
 mod repl;
 mod replay;
+mod report;
 mod run;
 mod run_folder;
 mod scenario;
@@ -62,6 +63,10 @@ enum Verb {
     ///
     /// The machine is fed with the samples of the journal: bit for bit the same, or, with another script or parameter, until it does otherwise.
     Replay(replay::ReplayRun),
+    /// Show a run as one page: a map with its plume, timelines, diagrams, and every switch with its reason.
+    ///
+    /// The page needs no network and nothing else: it can be sent, kept on a stick, and printed. A moment of it has an address: `report.html#t=420`.
+    Report(report::RunReport),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -114,6 +119,7 @@ fn main() -> ExitCode {
         Verb::Test(test) => test.run(),
         Verb::Repl(repl) => repl.run(),
         Verb::Replay(replay) => replay.run(),
+        Verb::Report(report) => report.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

@@ -23,6 +23,7 @@ mod pages;
 mod recorded;
 mod reference;
 mod repl;
+mod report;
 mod resilience;
 mod rules;
 mod runs;

@@ -65,6 +65,7 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
         &["new", EVIL],
         &["graph", &name, EVIL],
         &["doc", &name],
+        &["report", EVIL],
     ] {
         let said = said(&folder, arguments);
         assert!(said.contains("\\u{") || said.contains('?'), "{arguments:?}: {said}");
@@ -84,6 +85,7 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
     let evil = format!("{EVIL}.alb");
     std::fs::write(folder.join(&evil), SCRIPT).unwrap();
     said(&folder, &["run", &evil, "--mission", "north", "--out", EVIL]);
+    said(&folder, &["report", EVIL]);
     let trace = std::fs::read_to_string(folder.join(EVIL).join("trace.txt")).unwrap_or_default();
     let files: Vec<PathBuf> = std::fs::read_dir(folder.join(EVIL)).unwrap().map(|f| f.unwrap().path()).collect();
     let mut read = 0;
@@ -93,7 +95,7 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
             read += 1;
         }
     }
-    assert!(read >= 2, "{trace}");
+    assert!(read >= 3, "{trace}");
 }
 
 /// What is named over several lines forges no line of a result: of a run, of a test, of a message.

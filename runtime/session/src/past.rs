@@ -20,9 +20,19 @@ pub struct PastRun {
 impl PastRun {
     /// Reads the journal of a run of a plan, as far as it is whole. What the plan has no names for, since its script has changed, has `?`.
     pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
+        Self::read_with(plan, journal, |_| None::<InMemory>).map(|(past, _)| past)
+    }
+
+    /// The same with one more recorder, which is made of what was run.
+    pub(crate) fn read_with<R: Recorder>(
+        plan: &Plan,
+        journal: &[u8],
+        more: impl FnOnce(&JournalHeader) -> R,
+    ) -> Result<(Self, R), Unreadable> {
         let mut reader = Reader::new(journal)?;
         let header = reader.header().clone();
-        let mut memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
+        let memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
+        let mut recorders = (memory, more(&header));
         let mut derived = Derived::new(plan, &header);
         let mut in_simulation = false;
         // Nobody knows of a tick that it was the last one before what follows it is read.
@@ -35,18 +45,29 @@ impl PastRun {
                     let is_end = record.ending().is_some();
                     if let Some(mut before) = held.replace(record) {
                         before.is_last = is_end;
-                        memory.take(&before);
+                        recorders.take(&before);
                     }
                 }
                 Entry::Gap(gap) => {
-                    held.take().iter().for_each(|before| memory.take(before));
-                    memory.miss(gap.last - gap.first + 1, gap.state.tick);
+                    held.take().iter().for_each(|before| recorders.take(before));
+                    recorders.miss(gap.last - gap.first + 1, gap.state.tick);
                     derived.lose();
                 }
             }
         }
-        held.iter().for_each(|last| memory.take(last));
-        Ok(PastRun { memory, header, ending: reader.into_ending(), in_simulation })
+        held.iter().for_each(|last| recorders.take(last));
+        let (memory, more) = recorders;
+        Ok((PastRun { memory, header, ending: reader.into_ending(), in_simulation }, more))
+    }
+
+    /// What its recorders have kept.
+    pub(crate) fn memory(&self) -> &InMemory {
+        &self.memory
+    }
+
+    /// Whether its journal tells the truth of a simulated world.
+    pub(crate) fn in_simulation(&self) -> bool {
+        self.in_simulation
     }
 
     /// What was run.
