@@ -10,7 +10,7 @@ use albacore_session::report;
 use std::path::PathBuf;
 
 /// What the page is called in a run's folder.
-const REPORT: &str = "report.html";
+pub const REPORT: &str = "report.html";
 
 /// Show a run as one page: a map with its plume, timelines, diagrams, and every switch with its reason.
 #[derive(clap::Args)]
@@ -41,7 +41,7 @@ impl RunReport {
         let first_tick = past.first_tick.and_then(|moment| serde_json::to_value(moment).ok());
         let first_tick = first_tick.and_then(|moment| moment.as_str().map(str::to_string));
         let run = report(&script, &plan, &past.bytes, first_tick).map_err(|unreadable| {
-            message::error(&format!("`{}`: {unreadable}", self.run.display()), None);
+            message::error(&format!("`{}`: {unreadable}", past.path.display()), None);
             Exit::Failed
         })?;
         if let Some(cut) = &run.cut {

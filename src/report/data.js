@@ -144,6 +144,10 @@ addEventListener("error", (event) => {
   report.happenings = raw.happenings.map((line, index) => ({ ...line, t: line.tick / 10, index }));
   report.switches = report.happenings.filter((line) => line.verb === "switch" || line.verb === "resume");
 
+  // What is told with its reason when nothing is chosen: the last of these.
+  const TOLD = new Set(["switch", "resume", "abort", "timeout", "stale", "hold"]);
+  report.decisions = report.happenings.filter((line) => TOLD.has(line.verb));
+
   // The plume at the moment before; its lists are unpacked when they are wanted.
   const frames = raw.plume === null ? [] : raw.plume.frames;
   const ready = new Map();

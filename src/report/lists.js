@@ -77,7 +77,7 @@
     if (one === explained) return;
     explained = one;
     if (one === undefined) {
-      why.replaceChildren(element("p", "hint", "Choose a line, or move the moment: here stands the rule that fired last, and why."));
+      why.replaceChildren(element("p", "hint", "Choose a line, or move the moment: here stands what was decided last, and why."));
       return;
     }
     const head = element("p", "");
@@ -179,12 +179,12 @@
         pen.fillRect(i, 0, 1, 1);
       }
       const entry = element("span", "");
-      const [least, most] = map.range.map((x) => report.told(map.colour, x));
+      const [least, most] = map.range.map((x) => report.told(map.colour, x).replace(/\.0+(?= |°|$)/, ""));
       entry.append(`${map.colour.replaceAll("_", " ")} ${least}`, bar, most);
       room.append(entry);
     }
     const marks = [["moment", "◎", "report"], ["warn", "★", report.world.sources.length > 0 ? "true source" : "truly deepest"], ["ink", "□", "start"], ["ink", "×", "detection"], ["soft", "┄", "true track"]];
-    const isThere = [report.reports.some((one) => one.north !== null), report.world.sources.length > 0 || report.world.deepest !== null, report.world.start !== null, report.detection !== null && report.series.has("chemical"), report.series.has("true_north")];
+    const isThere = [report.reports.some((one) => one.north !== null), report.world.sources.length > 0 || report.world.deepest !== null, report.world.start !== null, report.detection !== null && report.series.has("chemical") && map.colour !== "chemical", report.series.has("true_north")];
     marks.forEach(([colour, sign, text], i) => {
       if (!isThere[i]) return;
       const entry = element("span", "");
@@ -243,7 +243,7 @@
     report.whenMoved((t) => {
       markDiagrams(t);
       const isNow = explained !== undefined && Math.abs(explained.t - t) < 0.05;
-      if (!isNow) explain(report.switches[report.lastBefore(report.switches, t, (one) => one.t)]);
+      if (!isNow) explain(report.decisions[report.lastBefore(report.decisions, t, (one) => one.t)]);
       // Last: the room that is left for the list depends on the reason above it.
       mark(t);
     });
