@@ -4,6 +4,8 @@ mod html;
 mod markdown;
 mod names;
 
+pub use html::escaped;
+
 use crate::exit::Exit;
 use crate::made::{Comment, Made};
 use crate::{disk, message, output, plan};

@@ -23,6 +23,7 @@ mod past;
 mod plan;
 mod repl;
 mod replay;
+mod report;
 mod run;
 mod run_folder;
 mod scenario;
@@ -74,6 +75,10 @@ enum Verb {
     ///
     /// All is read from the journal; of one that is cut short what is whole is written, and the offset is told.
     Export(export::Export),
+    /// Show a run as one page: a map with its plume, timelines, diagrams, and every switch with its reason.
+    ///
+    /// The page needs no network and nothing else: it can be sent, kept on a stick, and printed. A moment of it has an address: `report.html#t=420`.
+    Report(report::RunReport),
     /// Run a mission with many seeds, on all cores, and write a table.
     ///
     /// The table has a row for each seed, in order: the same bytes on any number of cores and after any interruption. The exit
@@ -129,6 +134,7 @@ fn main() -> ExitCode {
         Verb::Why(why) => why.run(),
         Verb::Diff(diff) => diff.run(),
         Verb::Export(export) => export.run(),
+        Verb::Report(report) => report.run(),
         Verb::Campaign(campaign) => campaign.run(),
         Verb::Graph(graph) => graph.run(),
         Verb::Doc(doc) => doc.run(),

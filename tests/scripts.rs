@@ -25,6 +25,7 @@ mod past;
 mod recorded;
 mod reference;
 mod repl;
+mod report;
 mod resilience;
 mod rules;
 mod runs;

@@ -72,6 +72,7 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
         &["doc", &name],
         &["export", EVIL, "--csv"],
         &["export", &name, "--csv"],
+        &["report", EVIL],
     ] {
         let said = said(&folder, arguments);
         assert!(said.contains("\\u{") || said.contains('?'), "{arguments:?}: {said}");
@@ -101,6 +102,7 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
         said(&folder, &["run", &evil, "--log", log, "--no-out"]);
         said(&folder, &["run", &evil, "--log", log, "--columns", log, "--no-out"]);
     }
+    said(&folder, &["report", EVIL]);
     let trace = std::fs::read_to_string(folder.join(EVIL).join("trace.txt")).unwrap_or_default();
     let files: Vec<PathBuf> = std::fs::read_dir(folder.join(EVIL)).unwrap().map(|f| f.unwrap().path()).collect();
     let mut read = 0;
@@ -110,7 +112,7 @@ fn what_is_kept_of_a_run_holds_nothing_unseen() {
             read += 1;
         }
     }
-    assert!(read >= 2, "{trace}");
+    assert!(read >= 3, "{trace}");
 }
 
 /// A file of every format, of a run whose folder, texts and names are hostile: texts hold nothing unseen, and a table no formula.

@@ -107,6 +107,14 @@ impl Script {
     }
 }
 
+impl Script {
+    /// The diagrams of all tables that the script knows: its own, those of its modules, and those that were made of a strategy for what it
+    /// was given.
+    pub fn diagrams(&self) -> impl Iterator<Item = Diagram> {
+        self.hir.activities.iter().filter_map(|activity| diagram(activity, &self.hir, &self.sources))
+    }
+}
+
 /// What an importing script may have meant.
 fn imported(names: &[&str]) -> Option<String> {
     (!names.is_empty()).then(|| format!("name one that it imports: {}", listed(names)))

@@ -137,6 +137,7 @@ fn word(token: &str, after: &str, home: usize, names: &Names) -> String {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// A text as HTML shows it, whatever is in it.
+pub fn escaped(text: &str) -> String {
     shown(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -4,6 +4,7 @@ use super::record::{ToldDigests, is_record};
 use crate::clock::Utc;
 use crate::disk::{self, Reserved};
 use crate::exit::Exit;
+use crate::report::REPORT;
 use albacore_session::{RUN_FILES, is_journal, is_journal_as_left, read_file};
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek};
@@ -159,6 +160,11 @@ fn make_room(remove: Remove, folder: &Path, replace: bool) -> Result<(), Refusal
     // What is not to be removed is said before anything is.
     if let Some(name) = beside_journal().find(|name| is_there(name) && !is_left(&folder.join(name), &told)) {
         return Err(foreign(&folder.join(name)));
+    }
+    // The page that was made of this run would be taken for one of the next.
+    let report = folder.join(REPORT);
+    if report.symlink_metadata().is_ok_and(|there| there.is_file()) && disk::spare(&report).is_ok() {
+        remove(&report).map_err(|error| unwritable(&report, &error))?;
     }
     // Whoever ends this in between finds no record beside another journal, and the record as long as there is anything that it alone tells to
     // be the run's.

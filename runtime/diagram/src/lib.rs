@@ -11,4 +11,4 @@ mod wrap;
 pub use albacore_lang::diagram::Diagram;
 pub use dot::dot;
 pub use mermaid::mermaid;
-pub use svg::svg;
+pub use svg::{marked_svg, svg};

@@ -35,6 +35,16 @@ const RED: &str = "#b84c00";
 /// The picture as an SVG document. Whoever points at a line is told its rules in full, with what they do. None: it is too
 /// large to be read, and takes long to be laid out.
 pub fn svg(diagram: &Diagram) -> Option<String> {
+    drawn(diagram, false)
+}
+
+/// The same, for a page that shows what is active: the box of a behavior is a group with its index in the diagram (`data-behavior`), a line
+/// one with those of both its ends (`data-from`, `data-to`; the ends of a strategy come after its behaviors).
+pub fn marked_svg(diagram: &Diagram) -> Option<String> {
+    drawn(diagram, true)
+}
+
+fn drawn(diagram: &Diagram, is_marked: bool) -> Option<String> {
     let graph = Graph::new(diagram);
     let shapes: Vec<Shape> = graph.nodes.iter().map(Shape::new).collect();
     let labels: Vec<Label> = graph.links.iter().map(Label::new).collect();
@@ -54,13 +64,24 @@ pub fn svg(diagram: &Diagram) -> Option<String> {
     let mut svg = Svg::new(width, height);
     svg.text((EDGE, 38.0), "font-size=\"20\" font-weight=\"bold\" fill=\"#1a1a1a\"", &diagram.name);
     for ((link, label), route) in graph.links.iter().zip(&labels).zip(&layout.routes) {
-        svg.titled(&spelt(&graph, link), CODE, |svg| {
+        let mark = if is_marked {
+            format!(" data-from=\"{}\" data-to=\"{}\"", link.source, link.target)
+        } else {
+            String::new()
+        };
+        svg.titled(&spelt(&graph, link), &format!("{CODE}{mark}"), |svg| {
             page.line(svg, link, route);
             label.draw(svg, page.area(route.label));
         });
     }
-    for (shape, area) in shapes.iter().zip(&layout.nodes) {
+    for (i, (shape, area)) in shapes.iter().zip(&layout.nodes).enumerate() {
+        if is_marked {
+            svg.raw(&format!("<g data-behavior=\"{i}\">"));
+        }
         shape.draw(&mut svg, page.area(*area));
+        if is_marked {
+            svg.raw("</g>");
+        }
     }
     page.start(&mut svg, layout.nodes[diagram.start]);
     svg.text((EDGE, height - 22.0), "font-size=\"12\" fill=\"#666\"", &keys);

@@ -20,11 +20,32 @@ pub struct PastRun {
 impl PastRun {
     /// Reads the journal of a run of a plan, as far as it is whole. What the plan has no names for, since its script has changed, has `?`.
     pub fn read(plan: &Plan, journal: &[u8]) -> Result<Self, Unreadable> {
+        Self::read_with(plan, journal, |_| None::<InMemory>).map(|(past, _)| past)
+    }
+
+    /// The same with one more recorder, which is made of what was run.
+    pub(crate) fn read_with<R: Recorder>(
+        plan: &Plan,
+        journal: &[u8],
+        more: impl FnOnce(&JournalHeader) -> R,
+    ) -> Result<(Self, R), Unreadable> {
         let header = Reader::new(journal)?.header().clone();
-        let mut memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
+        let memory = InMemory::new(plan, header.seed, &header.measurements, header.start);
+        let mut recorders = (memory, more(&header));
         let mut in_simulation = false;
-        let ending = fold(plan, journal, &mut memory, |record| in_simulation |= record.truth.is_some())?;
-        Ok(PastRun { memory, header, ending, in_simulation })
+        let ending = fold(plan, journal, &mut recorders, |record| in_simulation |= record.truth.is_some())?;
+        let (memory, more) = recorders;
+        Ok((PastRun { memory, header, ending, in_simulation }, more))
+    }
+
+    /// What its recorders have kept.
+    pub(crate) fn memory(&self) -> &InMemory {
+        &self.memory
+    }
+
+    /// Whether its journal tells the truth of a simulated world.
+    pub(crate) fn in_simulation(&self) -> bool {
+        self.in_simulation
     }
 
     /// What was run.

@@ -139,7 +139,7 @@ impl Recorder for InMemory {
 }
 
 /// What is said of steps that were not taken in.
-fn missed(steps: u64) -> String {
+pub(crate) fn missed(steps: u64) -> String {
     format!("{steps} ticks before this are not in trace, picture and what is recorded: the host was too slow")
 }
 

@@ -31,4 +31,4 @@ pub use world::recorded::{Playback, RecordedPlume, Still};
 pub use world::stratification::Stratification;
 pub use world::survey::Survey;
 pub use world::water::{Flow, Meander, Tide, UpperFlow, Waves};
-pub use world::{Environment, EnvironmentSetting};
+pub use world::{Environment, EnvironmentSetting, World};

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Ticks between the points of the track.
 const TRACK_EVERY_TICKS: u64 = 5;
 /// Detections: readings at or above this share of full scale, the papers' threshold.
-const DETECTION: f64 = 0.04;
+pub(crate) const DETECTION: f64 = 0.04;
 
 /// Gathers the track and the detections.
 pub(crate) struct Track {

@@ -1,0 +1,231 @@
+//! The world of a run as its page shows it: areas, the bottom, sources, and the plume as it moved, which is simulated once more from the
+//! run's seed.
+
+use super::recorder::Folded;
+use super::series::packed;
+use crate::plan::Plan;
+use crate::recorders::InMemory;
+use albacore_geometry::{Point, TangentFrame};
+use albacore_program::seen::one_line;
+use albacore_sim::World;
+use albacore_vehicle::seconds;
+use serde::Serialize;
+
+/// Cells of the bottom along each side of the map.
+const BOTTOM_CELLS: usize = 80;
+/// Filaments of a moment, and of all, that a page has.
+const FILAMENTS_MAX: usize = 500;
+const FILAMENTS_IN_ALL: usize = 150_000;
+/// Seconds between two moments of the plume at least; of a long run more.
+const FRAME_S: u64 = 20;
+/// No plume is simulated for longer, ticks: 100 h.
+const TICKS_MAX: u64 = 3_600_000;
+/// Moments at most.
+const FRAMES_MAX: u64 = 300;
+/// The plume is shown this far beyond what else there is, in parts of its size.
+const BEYOND: f64 = 0.25;
+/// Places on the globe are told at so many points along each side of the map, between which a page interpolates.
+const GLOBE_POINTS: usize = 3;
+
+/// Corners of an outline, m, north and east by turns.
+type Corners = Vec<f64>;
+
+/// A name and an outline or a place.
+#[derive(Clone, Debug, Serialize)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// North and east by turns, m.
+    pub at: Corners,
+}
+
+/// What is known of the world of a run.
+#[derive(Clone, Debug, Serialize)]
+pub struct KnownWorld {
+    /// The least and the greatest north and east of all that is to be seen, m.
+    pub extent: Extent,
+    /// Latitude and longitude, degrees, at points of the extent: rows of north, each of east.
+    pub globe: Option<Vec<(f64, f64)>>,
+    /// The operating area and its regions.
+    pub areas: Vec<Named>,
+    /// Areas that were reported.
+    pub outlines: Vec<Named>,
+    /// Where the vehicle must not be.
+    pub no_go: Vec<Named>,
+    /// True sources; of one that is a line both its ends.
+    pub sources: Vec<Named>,
+    /// The deepest point, where it is sought, m.
+    pub deepest: Option<(f64, f64)>,
+    /// Where the vehicle started, m.
+    pub start: Option<(f64, f64)>,
+    /// The bottom, where it is not level.
+    pub bottom: Option<BottomCells>,
+    /// The mean flow, m/s north and east, if any.
+    pub flow: Option<(f64, f64)>,
+    /// Whether the truth is known.
+    pub is_simulated: bool,
+}
+
+/// The depth of the water in cells.
+#[derive(Clone, Debug, Serialize)]
+pub struct BottomCells {
+    /// Cells along north and along east.
+    pub cells: usize,
+    /// Depths at the middles of the cells of the extent, dm, from south to north, each row from west to east, packed.
+    pub depths: Vec<Option<i64>>,
+}
+
+/// The plume at some moments.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlumeFrames {
+    /// Seconds between them.
+    pub every_s: u64,
+    /// Of each moment north, east (m) and radius (dm) of its filaments, in three packed lists.
+    pub frames: Vec<[Vec<Option<i64>>; 3]>,
+}
+
+/// The same, and the filaments of the end.
+pub(super) struct SimulatedPlume {
+    pub data: PlumeFrames,
+    pub at_end: Vec<(Point, f64)>,
+}
+
+/// A rectangle of the map, m.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Extent {
+    south: f64,
+    west: f64,
+    north: f64,
+    east: f64,
+}
+
+impl Extent {
+    fn of(points: impl Iterator<Item = Point>) -> Self {
+        let none =
+            Extent { south: f64::INFINITY, west: f64::INFINITY, north: f64::NEG_INFINITY, east: f64::NEG_INFINITY };
+        let around = points.filter(|p| p.north.abs() < 1e7 && p.east.abs() < 1e7).fold(none, |of, p| Extent {
+            south: of.south.min(p.north),
+            west: of.west.min(p.east),
+            north: of.north.max(p.north),
+            east: of.east.max(p.east),
+        });
+        // Of a vehicle that was nowhere there is some water about the origin.
+        if around.south > around.north { Extent::default().widened(50.0) } else { around.widened(10.0) }
+    }
+
+    fn widened(self, by: f64) -> Self {
+        Extent { south: self.south - by, west: self.west - by, north: self.north + by, east: self.east + by }
+    }
+
+    fn holds(&self, p: Point) -> bool {
+        (self.south..=self.north).contains(&p.north) && (self.west..=self.east).contains(&p.east)
+    }
+
+    /// The point at some shares of both sides.
+    fn at(&self, north: f64, east: f64) -> Point {
+        Point::new(self.south + north * (self.north - self.south), self.west + east * (self.east - self.west))
+    }
+}
+
+/// All that must be on the map.
+pub(super) fn extent(memory: &InMemory, folded: &Folded) -> Extent {
+    let results = &memory.results;
+    let sources = results.plan.scenario.environment.sources.iter().map(|source| source.at);
+    let reports = results.reports.listed.iter().filter_map(|report| Some(Point::new(report.north_m?, report.east_m?)));
+    let areas = results.area.iter().chain(results.regions.iter().flat_map(|(_, corners)| corners)).copied();
+    let track = folded.places.iter().copied();
+    Extent::of(areas.chain(sources).chain(reports).chain(track).chain(results.start))
+}
+
+/// What is known of the world beside the plume.
+pub(super) fn known(memory: &InMemory, extent: Extent, is_simulated: bool) -> KnownWorld {
+    let results = &memory.results;
+    let environment = &results.plan.scenario.environment;
+    let name = results.plan.program.mission.areas.first().map_or("", |area| &area.name);
+    let own = (!results.area.is_empty()).then(|| named(name, &results.area));
+    let pair = |p: Point| (metres(p.north), metres(p.east));
+    let sources = environment.sources.iter().map(|source| {
+        let ends: Vec<Point> = std::iter::once(source.at).chain(source.to).collect();
+        named(&source.name, &ends)
+    });
+    let mean = environment.flow.mean;
+    KnownWorld {
+        extent,
+        globe: results.plan.frame().map(|frame| globe(frame, &extent)),
+        areas: own.into_iter().chain(results.regions.iter().map(|(name, at)| named(name, at))).collect(),
+        outlines: results.areas.iter().map(|(name, at)| named(name, at)).collect(),
+        no_go: environment.no_go.iter().map(|zone| named(&zone.name, zone.area.corners())).collect(),
+        sources: sources.collect(),
+        deepest: results.deepest_sought().map(pair),
+        start: results.start.map(pair),
+        bottom: (is_simulated && !environment.bottom.is_level()).then(|| {
+            let share = |i: usize| (i as f64 + 0.5) / BOTTOM_CELLS as f64;
+            let cells = (0..BOTTOM_CELLS * BOTTOM_CELLS).map(|i| (i / BOTTOM_CELLS, i % BOTTOM_CELLS));
+            let depth = |(n, e)| environment.bottom.depth_at(extent.at(share(n), share(e)));
+            let whole = |depth: f64| depth.is_finite().then(|| (depth * 10.0).round() as i64);
+            BottomCells { cells: BOTTOM_CELLS, depths: packed(cells.map(depth).map(whole)) }
+        }),
+        flow: (is_simulated && mean.length() > 0.0).then_some((mean.north, mean.east)),
+        is_simulated,
+    }
+}
+
+fn globe(frame: TangentFrame, extent: &Extent) -> Vec<(f64, f64)> {
+    let share = |i: usize| i as f64 / (GLOBE_POINTS - 1) as f64;
+    let places = (0..GLOBE_POINTS * GLOBE_POINTS).map(|i| extent.at(share(i / GLOBE_POINTS), share(i % GLOBE_POINTS)));
+    places.map(|p| frame.to_geodetic(p)).map(|globe| (globe.latitude_deg(), globe.longitude_deg())).collect()
+}
+
+fn named(name: &str, corners: &[Point]) -> Named {
+    let at = corners.iter().flat_map(|p| [metres(p.north), metres(p.east)]).collect();
+    Named { name: one_line(name), at }
+}
+
+/// Metres as a page needs them.
+fn metres(x: f64) -> f64 {
+    if x.is_finite() { (x * 10.0).round() / 10.0 } else { 0.0 }
+}
+
+/// The plume of a run, simulated once more from its seed. None where its scenario has none.
+pub(super) fn plume(plan: &Plan, seed: u64, ticks: u64, extent: Extent) -> Option<SimulatedPlume> {
+    let (scenario, ticks) = (&plan.scenario, ticks.min(TICKS_MAX));
+    if !scenario.has_plume() || scenario.validate().is_err() {
+        return None;
+    }
+    let lasts = seconds(ticks) as u64;
+    let every_s = FRAME_S.max(lasts.div_ceil(FRAMES_MAX).div_ceil(10) * 10);
+    let of_moment = FILAMENTS_MAX.min(FILAMENTS_IN_ALL / (lasts / every_s + 1) as usize);
+    let beyond = BEYOND * (extent.north - extent.south).max(extent.east - extent.west);
+    let shown = extent.widened(beyond);
+    let mut world = World::new(scenario, seed);
+    let (mut frames, mut at_end) = (Vec::new(), Vec::new());
+    // Tick by tick, as the run itself went.
+    for tick in 0..=ticks {
+        if world.end_before(tick).is_some() {
+            break;
+        }
+        world.advance_to(tick);
+        let is_end = tick == ticks;
+        if !(tick.is_multiple_of(every_s * 10) || is_end) {
+            continue;
+        }
+        let there: Vec<(Point, f64)> = world.filaments(seconds(tick)).collect();
+        if tick.is_multiple_of(every_s * 10) {
+            frames.push(frame(&there, shown, of_moment));
+        }
+        if is_end {
+            at_end = there;
+        }
+    }
+    Some(SimulatedPlume { data: PlumeFrames { every_s, frames }, at_end })
+}
+
+/// A moment of the plume, thinned.
+fn frame(there: &[(Point, f64)], shown: Extent, most: usize) -> [Vec<Option<i64>>; 3] {
+    let inside: Vec<&(Point, f64)> = there.iter().filter(|(p, _)| shown.holds(*p)).collect();
+    let step = inside.len().div_ceil(most.max(1)).max(1);
+    // Counted from the youngest, which are last: those beside a source are few and seen first.
+    let kept: Vec<&(Point, f64)> = inside.into_iter().rev().step_by(step).collect();
+    let list = |of: fn(&(Point, f64)) -> f64| packed(kept.iter().map(|filament| Some(of(filament).round() as i64)));
+    [list(|(p, _)| p.north), list(|(p, _)| p.east), list(|(_, radius)| radius * 10.0)]
+}

@@ -1,0 +1,253 @@
+// The lines of the trace, why a rule fired, the diagrams, and the choices above the map.
+{
+  const lines = document.getElementById("lines");
+  const why = document.getElementById("why");
+
+  // What is listed, by verb, and whether that is so from the start.
+  const KINDS = [
+    ["switches", ["switch", "resume", "suspend"], true],
+    ["holds", ["stale", "fresh", "hold", "wait", "link", "control"], true],
+    ["ends", ["abort", "timeout", "end", "rules"], true],
+    ["limits", ["limit"], true],
+    ["reports", ["report", "ask", "answer"], true],
+    ["messages", ["log", "vehicle"], true],
+    ["all else", [], false],
+  ];
+  const KNOWN = new Set(KINDS.flatMap(([, verbs]) => verbs));
+  const kindOf = (verb) => (KNOWN.has(verb) ? KINDS.findIndex(([, verbs]) => verbs.includes(verb)) : KINDS.length - 1);
+  const chosen = KINDS.map(([, , isOn]) => isOn);
+  // More rows make a page slow that nobody reads to its end.
+  const ROWS_MAX = 4000;
+
+  let rows = [];
+  let marked = null;
+
+  function element(name, className, text) {
+    const made = document.createElement(name);
+    if (className !== "") made.className = className;
+    if (text !== undefined) made.textContent = text;
+    return made;
+  }
+
+  function list() {
+    const all = report.happenings.filter((one) => chosen[kindOf(one.verb)]);
+    rows = all.slice(0, ROWS_MAX).map((one) => {
+      const row = element("button", "");
+      row.type = "button";
+      row.tabIndex = -1;
+      row.title = one.text;
+      // The columns of the trace: what, where, by which rule, and why. Here the first is enough.
+      const what = one.verb === "switch" ? one.text.split(/\s{2,}/)[0] : one.text.replace(/\s{2,}/g, "  ");
+      row.append(element("span", "t", one.t.toFixed(1)), element("span", `v v-${one.verb}`, one.verb), element("span", "what", what));
+      row.addEventListener("click", () => {
+        report.go(one.t);
+        explain(one);
+      });
+      return { one, row };
+    });
+    lines.replaceChildren(...rows.map(({ row }) => row));
+    const beyond = all.length - rows.length;
+    if (all.length === 0) lines.append(element("p", "", "Nothing of this happened."));
+    if (beyond > 0) lines.append(element("p", "", `${beyond} more lines: choose fewer kinds above to see them.`));
+    if (report.leftOut > 0) lines.append(element("p", "", `${report.leftOut} lines were left out of this page: they are in the trace.`));
+    marked = null;
+    mark(report.t);
+  }
+
+  // The line of the moment, and those after it paler.
+  function mark(t) {
+    const at = report.lastBefore(rows, t, ({ one }) => one.t);
+    if (marked !== at) {
+      if (marked !== null) rows[marked]?.row.classList.remove("now");
+      rows.forEach(({ row }, i) => row.classList.toggle("later", i > at));
+      marked = at;
+    }
+    const now = rows[at]?.row;
+    if (now === undefined) {
+      lines.scrollTop = 0;
+      return;
+    }
+    now.classList.add("now");
+    const [top, bottom] = [now.offsetTop - lines.offsetTop, now.offsetTop - lines.offsetTop + now.offsetHeight];
+    if (top < lines.scrollTop + 20 || bottom > lines.scrollTop + lines.clientHeight - 20) lines.scrollTop = top - lines.clientHeight / 2;
+  }
+
+  let explained;
+  function explain(one) {
+    if (one === explained) return;
+    explained = one;
+    if (one === undefined) {
+      why.replaceChildren(element("p", "hint", "Choose a line, or move the moment: here stands what was decided last, and why."));
+      return;
+    }
+    const head = element("p", "");
+    const parts = one.text.split(/\s{2,}/);
+    head.append(element("b", "", `${one.verb}: ${parts[0]}`), ` at ${report.clock(one.t)} (${one.t.toFixed(1)} s)`);
+    const made = [head];
+    if (one.why !== undefined) {
+      const rule = element("p", "code", one.why.rule);
+      const place = element("p", "hint", one.why.place === "" ? "" : `rule at ${one.why.place}`);
+      made.push(rule, place);
+      if (one.why.values.length > 0) {
+        const table = element("table", "code");
+        for (const [name, value] of one.why.values) {
+          const row = element("tr", "");
+          row.append(element("td", "", name), element("td", "", value));
+          table.append(row);
+        }
+        made.push(table);
+      }
+      const position = parts.find((part) => part.startsWith("at ("));
+      if (position !== undefined) made.push(element("p", "hint", `vehicle ${position}`));
+    } else if (parts.length > 1) {
+      made.push(element("p", "code", parts.slice(1).join("\n")));
+    }
+    why.replaceChildren(...made);
+  }
+
+  // The diagrams are our own pictures: their texts are escaped already.
+  const drawn = [];
+  function drawDiagrams() {
+    const room = document.getElementById("diagrams");
+    for (const diagram of report.diagrams) {
+      const figure = element("figure", "");
+      if (diagram.svg === null) {
+        figure.append(element("p", "", `The diagram of ${report.activities[diagram.activity].name} is too large to be drawn.`));
+      } else {
+        figure.innerHTML = diagram.svg;
+      }
+      room.append(figure);
+      const boxes = Array.from(figure.querySelectorAll("g[data-behavior]"));
+      const links = Array.from(figure.querySelectorAll("g[data-from]"));
+      drawn.push({ diagram, boxes, links });
+    }
+    document.getElementById("diagram-part").hidden = report.diagrams.length === 0;
+  }
+
+  function markDiagrams(t) {
+    const active = report.active(t);
+    for (const { diagram, boxes, links } of drawn) {
+      const isActive = active.includes(diagram.activity);
+      boxes.forEach((box) => {
+        const behavior = diagram.behaviors[Number(box.dataset.behavior)];
+        box.classList.toggle("active", isActive && behavior !== null && active.includes(behavior));
+      });
+      // The rule that fired last in this table, while it is active.
+      let edge = null;
+      if (isActive) {
+        for (let i = report.lastBefore(report.switches, t, (one) => one.t); i >= 0 && edge === null; i--) {
+          const taken = report.switches[i].why?.edge;
+          if (taken !== undefined && taken[0] === diagram.activity) edge = taken;
+        }
+      }
+      links.forEach((link) => {
+        const isTaken = edge !== null && Number(link.dataset.from) === edge[1] && Number(link.dataset.to) === edge[2];
+        link.classList.toggle("taken", isTaken);
+      });
+    }
+  }
+
+  function choice(text, isOn, change) {
+    const label = element("label", "");
+    const box = element("input", "");
+    box.type = "checkbox";
+    box.checked = isOn;
+    box.addEventListener("change", () => change(box.checked));
+    label.append(box, ` ${text}`);
+    return label;
+  }
+
+  function legend() {
+    const room = document.getElementById("legend");
+    room.replaceChildren();
+    const { map } = report;
+    if (map.colour === "behavior") {
+      for (const id of report.shownBehaviors) {
+        const entry = element("span", "");
+        const line = element("i", "");
+        line.style.background = report.colourOf(id);
+        entry.append(line, report.activities[id].name);
+        room.append(entry);
+      }
+    } else {
+      const bar = element("canvas", "");
+      [bar.width, bar.height] = [180, 1];
+      const pen = bar.getContext("2d");
+      const isHeading = report.series.get(map.colour).unit === "deg";
+      for (let i = 0; i < 180; i++) {
+        pen.fillStyle = isHeading ? `hsl(${2 * i} 75% ${report.isDark() ? 62 : 42}%)` : report.scaleColour(i / 180);
+        pen.fillRect(i, 0, 1, 1);
+      }
+      const entry = element("span", "");
+      const [least, most] = map.range.map((x) => report.told(map.colour, x).replace(/\.0+(?= |°|$)/, ""));
+      entry.append(`${map.colour.replaceAll("_", " ")} ${least}`, bar, most);
+      room.append(entry);
+    }
+    const marks = [["moment", "◎", "report"], ["warn", "★", report.world.sources.length > 0 ? "true source" : "truly deepest"], ["ink", "□", "start"], ["ink", "×", "detection"], ["soft", "┄", "true track"]];
+    const isThere = [report.reports.some((one) => one.north !== null), report.world.sources.length > 0 || report.world.deepest !== null, report.world.start !== null, report.detection !== null && report.series.has("chemical") && map.colour !== "chemical", report.series.has("true_north")];
+    marks.forEach(([colour, sign, text], i) => {
+      if (!isThere[i]) return;
+      const entry = element("span", "");
+      const mark = element("b", "", sign);
+      mark.style.color = i === 1 ? "#d32f2f" : `var(--${colour})`;
+      entry.append(mark, text);
+      room.append(entry);
+    });
+    if (report.bottom !== null) room.append(element("span", "", `bottom ${map.bottomRange.map((x) => x.toFixed(1)).join(" to ")} m: bluer is deeper`));
+  }
+  report.drawLegend = legend;
+
+  report.startLists = function () {
+    const { map } = report;
+    const colour = document.getElementById("colour");
+    const left = new Set(["north", "east", "true_north", "true_east", "chemical_least"]);
+    for (const name of ["behavior", ...Array.from(report.series.keys()).filter((one) => !left.has(one))]) {
+      colour.add(new Option(name.replaceAll("_", " "), name));
+    }
+    colour.addEventListener("change", () => {
+      map.colourBy(colour.value);
+      map.draw();
+      legend();
+    });
+    const isThere = { plume: report.hasPlume, bottom: report.bottom !== null, truth: report.series.has("true_north"), detections: report.detection !== null && report.series.has("chemical"), reports: report.reports.some((one) => one.north !== null), grid: true };
+    for (const name of Object.keys(map.shown)) {
+      if (!isThere[name]) continue;
+      const change = (isOn) => {
+        map.shown[name] = isOn;
+        map.draw();
+      };
+      document.getElementById("layers").append(choice(name, map.shown[name], change));
+    }
+    KINDS.forEach(([name], kind) => {
+      if (!report.happenings.some((one) => kindOf(one.verb) === kind)) return;
+      const change = (isOn) => {
+        chosen[kind] = isOn;
+        list();
+      };
+      document.getElementById("filters").append(choice(name, chosen[kind], change));
+    });
+    for (const row of document.querySelectorAll("#reports tr[data-t]")) row.addEventListener("click", () => report.go(Number(row.dataset.t)));
+    lines.addEventListener("keydown", (event) => {
+      const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+      const next = rows[(marked ?? -1) + step];
+      if (next === undefined) return;
+      event.preventDefault();
+      // Of lines of one moment the next one is the first of a later moment: the list follows the moment.
+      const later = step > 0 ? next : (rows.find(({ one }) => one.t === next.one.t) ?? next);
+      report.go(later.one.t);
+      explain(later.one);
+    });
+    drawDiagrams();
+    list();
+    legend();
+    report.whenMoved((t) => {
+      markDiagrams(t);
+      const isNow = explained !== undefined && Math.abs(explained.t - t) < 0.05;
+      if (!isNow) explain(report.decisions[report.lastBefore(report.decisions, t, (one) => one.t)]);
+      // Last: the room that is left for the list depends on the reason above it.
+      mark(t);
+    });
+    explained = null;
+    explain(undefined);
+  };
+}
