@@ -116,8 +116,10 @@ impl<'a> CampaignSummary<'a> {
             ("over ground", self.path_length_m, "m"),
         ];
         for (what, quantiles, unit) in quantities {
-            if let Some(Quantiles { median, p90 }) = quantiles {
-                lines.add(&format!("  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}"));
+            if let Some(Quantiles { median, p90, mean }) = quantiles {
+                lines.add(&format!(
+                    "  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}, mean {mean:>8.1} {unit}"
+                ));
             }
         }
         lines.add(&format!("  intervals: {}; quantiles: {}", self.interval, self.quantile));

@@ -40,13 +40,15 @@ impl Share {
     }
 }
 
-/// Two quantiles. Each is one of the values: the smallest that so large a share of them does not exceed (nearest rank).
+/// Two quantiles, and the mean. Each quantile is one of the values: the smallest that so large a share of them does not exceed (nearest rank).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
     /// Half of the values do not exceed it.
     pub median: f64,
     /// Nine in ten do not exceed it.
     pub p90: f64,
+    /// Their mean, which a few large ones decide.
+    pub mean: f64,
 }
 
 impl Quantiles {
@@ -57,7 +59,8 @@ impl Quantiles {
         // In whole numbers: 0.9 * 10 is not quite 9.
         let rank = |tenths: usize| (sorted.len() * tenths).div_ceil(10);
         let at = |tenths| sorted.get(rank(tenths).checked_sub(1)?).copied();
-        Some(Quantiles { median: at(5)?, p90: at(9)? })
+        let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+        Some(Quantiles { median: at(5)?, p90: at(9)?, mean })
     }
 }
 
