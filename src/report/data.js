@@ -95,7 +95,7 @@ addEventListener("error", (event) => {
   // A number as it is shown, with its unit.
   report.told = function (name, x) {
     const series = report.series.get(name);
-    if (series === undefined || Number.isNaN(x)) return "?";
+    if (series === undefined || Number.isNaN(x)) return "–";
     const digits = series.unit === "deg" ? 0 : Math.min(series.decimals, 2);
     const unit = series.unit === "deg" ? "°" : series.unit === "" ? "" : ` ${series.unit}`;
     return x.toFixed(digits) + unit;

@@ -119,7 +119,7 @@
     pen.textBaseline = "alphabetic";
     for (let east = Math.ceil(map.east(0) / step) * step; east <= map.east(view.width); east += step) {
       stroke([[map.x(east), 0], [map.x(east), view.height]]);
-      pen.fillText(`${Math.round(east * 10) / 10} E`, map.x(east) + 3, view.height - 4);
+      if (map.x(east) + 44 < view.width) pen.fillText(`${Math.round(east * 10) / 10} E`, map.x(east) + 3, view.height - 4);
     }
     for (let north = Math.ceil(map.north(view.height) / step) * step; north <= map.north(0); north += step) {
       stroke([[0, map.y(north)], [view.width, map.y(north)]]);

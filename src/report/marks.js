@@ -59,6 +59,8 @@
     }
     if (!map.shown.reports) return;
     const named = [];
+    // Many rings hide one another and the track.
+    const radius = report.reports.length > 25 ? 4 : 8;
     for (const one of report.reports) {
       if (one.north === null) continue;
       const [x, y] = [map.x(one.east), map.y(one.north)];
@@ -66,12 +68,12 @@
       const isTold = one.t <= t;
       pen.globalAlpha = isTold ? 1 : 0.35;
       pen.strokeStyle = pen.fillStyle = "#c2185b";
-      pen.lineWidth = 2.4;
+      pen.lineWidth = radius > 4 ? 2.4 : 1.3;
       pen.beginPath();
-      pen.arc(x, y, 8, 0, 2 * Math.PI);
+      pen.arc(x, y, radius, 0, 2 * Math.PI);
       pen.stroke();
       pen.beginPath();
-      pen.arc(x, y, 2.2, 0, 2 * Math.PI);
+      pen.arc(x, y, radius > 4 ? 2.2 : 1, 0, 2 * Math.PI);
       pen.fill();
       if (isTold) named.push({ text: `${one.name}, ${report.clock(one.t)}`, x, y });
       pen.globalAlpha = 1;
@@ -79,15 +81,17 @@
     placeLabels(named);
   }
 
-  // Names beside their places, each where none of those before it is.
+  // Names beside their places, each where no other is; the latest come first, and what finds no room has none.
+  const NAMES_MAX = 60;
   function placeLabels(named) {
     const taken = [];
     pen.font = "12px Helvetica, Arial, sans-serif";
-    for (const { text, x, y } of named) {
+    for (const { text, x, y } of [...named].reverse().slice(0, NAMES_MAX)) {
       const wide = pen.measureText(text).width;
       const left = x + 13 + wide > view.width ? x - 13 - wide : x + 13;
       const isFree = (at) => taken.every((one) => left > one.left + one.wide || one.left > left + wide || Math.abs(one.at - at) > 14);
-      const at = [-11, 13, -26, 28, -41, 43].map((dy) => y + dy).find(isFree) ?? y - 11;
+      const at = [-11, 13, -26, 28, -41, 43].map((dy) => y + dy).find(isFree);
+      if (at === undefined) continue;
       taken.push({ left, wide, at });
       label(text, left, at, report.ink("moment"));
     }

@@ -142,7 +142,8 @@ fn reports(run: &RunReport) -> String {
 }
 
 fn reported(row: &ReportedRow, has_place: bool, has_globe: bool, has_error: bool) -> String {
-    let number = |x: Option<f64>| x.map(|x| format!("{x:.1}")).unwrap_or_default();
+    // Adding a zero takes the sign from one.
+    let number = |x: Option<f64>| x.map(|x| format!("{:.1}", (x * 10.0).round() / 10.0 + 0.0)).unwrap_or_default();
     let mut cells = vec![("", row.name.clone()), ("n", format!("{:.1}", row.t))];
     if has_place {
         cells.extend([("n", number(row.north)), ("n", number(row.east))]);
