@@ -35,6 +35,7 @@ mod sizes;
 mod syntax;
 mod test_verb;
 mod thermocline;
+mod tutorial;
 mod unseen;
 mod waiting;
 mod whole_program;

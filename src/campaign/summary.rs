@@ -2,8 +2,8 @@
 
 use super::seeds::Seeds;
 use crate::output::Lines;
-use albacore_session::Plan;
 use albacore_session::campaign::{INTERVAL, Missed, QUANTILE, Quantiles, Share, Tally, Within, tells_places};
+use albacore_session::{Plan, number};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -117,8 +117,9 @@ impl<'a> CampaignSummary<'a> {
         ];
         for (what, quantiles, unit) in quantities {
             if let Some(Quantiles { median, p90, mean }) = quantiles {
+                let [median, p90, mean] = [median, p90, mean].map(|x| number::fixed(x, 1));
                 lines.add(&format!(
-                    "  {what:<13} median {median:>8.1} {unit}, p90 {p90:>8.1} {unit}, mean {mean:>8.1} {unit}"
+                    "  {what:<13} median {median:>8} {unit}, p90 {p90:>8} {unit}, mean {mean:>8} {unit}"
                 ));
             }
         }

@@ -44,7 +44,7 @@ pub use albacore_lang::source::{FileId, SOURCE_BYTES_MAX, Source, Sources, Span}
 pub use albacore_lang::{Script, is_setpoint};
 pub use albacore_link::{Dialect, Faulty, HostClock, LinkError, LinkFault, Rows, Transport, Url, WrittenUrl, serve};
 pub use albacore_machine::Outcome;
-pub use albacore_program::seen;
+pub use albacore_program::{number, seen};
 pub use albacore_trace::journal;
 pub use albacore_trace::journal::SourceDigest;
 pub use albacore_trace::{Difference, Digest, first_difference, first_foreign_line, same_behavior};

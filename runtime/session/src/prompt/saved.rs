@@ -53,6 +53,11 @@ impl Prompt {
             let help = "open the prompt anew, and begin with `start`";
             return Err(wrong("the vehicle did something else before the mission, which a test does not know", help));
         }
+        let other = self.opening.set.iter().find(|set| set.split('=').next().is_some_and(|name| name.contains('.')));
+        if let Some(other) = other {
+            let what = format!("`{other}` changes no parameter of the mission, and a test gives those alone");
+            return Err((what, "give the mission a parameter, and hand it on"));
+        }
         let mission = self.loaded.mission.as_ref().map_or("", |program| program.mission.name.as_str());
         let root = Files::around(file).root().to_path_buf();
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
