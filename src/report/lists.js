@@ -72,6 +72,8 @@
     if (top < lines.scrollTop + 20 || bottom > lines.scrollTop + lines.clientHeight - 20) lines.scrollTop = top - lines.clientHeight / 2;
   }
 
+  // So many conditions and terms are shown without being asked for.
+  const OPEN_LINES = 14;
   let explained;
   function explain(one) {
     if (one === explained) return;
@@ -96,6 +98,12 @@
           table.append(row);
         }
         made.push(table);
+      }
+      if (one.why.tried !== undefined) {
+        const tried = element("details", "");
+        tried.append(element("summary", "hint", "tried in this tick, in this order"), element("p", "code", one.why.tried.join("\n")));
+        tried.open = one.why.tried.length <= OPEN_LINES;
+        made.push(tried);
       }
       const position = parts.find((part) => part.startsWith("at ("));
       if (position !== undefined) made.push(element("p", "hint", `vehicle ${position}`));

@@ -13,9 +13,10 @@ use crate::picture;
 use crate::plan::Plan;
 use crate::recorders::WorldAtEnd;
 use crate::summary::Summary;
+use crate::why::explain;
 use albacore_lang::Script;
 use albacore_program::seen::one_line;
-use albacore_trace::journal::{Ending, Unreadable, World};
+use albacore_trace::journal::{Ending, Reader, Unreadable, World};
 use data::{Head, ReportData, ReportedRow};
 use recorder::Fold;
 
@@ -45,10 +46,13 @@ pub fn report(
         Ending::CutShort(flaw) => Some(format!("the journal is cut short {flaw}")),
         Ending::Damaged(flaw) => Some(format!("the journal is damaged {flaw}")),
     };
+    // A mission that its vehicle cannot have, since the journal is of another version of it, has no conditions.
+    let decisions = explain(Reader::new(journal)?, plan, None).map(|told| told.decisions).unwrap_or_default();
     let (header, memory) = (past.header(), past.memory());
     let summary = past.summary();
     let is_link = matches!(header.world, World::Link);
-    let folded = fold.finish(summary.ticks);
+    let mut folded = fold.finish(summary.ticks);
+    happenings::add_tried(&mut folded.happenings, &decisions);
     let extent = world::extent(memory, &folded);
     let plume = if is_link { None } else { world::plume(plan, header.seed, summary.ticks, extent) };
     let at_end = plume.as_ref().map(|plume| plume.at_end.clone()).unwrap_or_default();

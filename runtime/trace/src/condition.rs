@@ -41,14 +41,20 @@ const TERM_INDENT: usize = 5;
 impl TriedCondition {
     /// In lines: whether it held, what it decides, and what it is made of.
     pub fn lines(&self) -> Vec<String> {
-        let TriedCondition { decides, place, condition, values, .. } = self;
+        let mut lines = self.terms_alone();
+        if !self.values.is_empty() {
+            lines.push(format!("         with {}", self.values));
+        }
+        lines
+    }
+
+    /// The same without the values.
+    pub fn terms_alone(&self) -> Vec<String> {
+        let TriedCondition { decides, place, condition, .. } = self;
         let mut lines = vec![format!("  {}  {decides}  {place}  on {condition}", yes(Some(self.holds)))];
         for term in &self.terms {
             let indent = term.depth as usize * TERM_INDENT;
             lines.push(format!("         {:indent$}{}  {}", "", yes(term.holds), term.text));
-        }
-        if !values.is_empty() {
-            lines.push(format!("         with {values}"));
         }
         lines
     }

@@ -2,10 +2,11 @@
 
 use crate::plan::Plan;
 use crate::recorders::missed;
+use crate::why::Decision;
 use albacore_machine::Event;
 use albacore_program::seen::one_line;
 use albacore_program::{ActivityId, Body, Entry, Program, Target, number};
-use albacore_trace::{BehaviorTrace, Header, Step, TickRecord};
+use albacore_trace::{BehaviorTrace, Header, Step, TickRecord, TriedCondition};
 use albacore_vehicle::TICK_S;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -41,6 +42,9 @@ pub struct Why {
     pub place: String,
     /// The values that its guard looked at, by name.
     pub values: Vec<(String, String)>,
+    /// The conditions that were tried in this tick, in their order: whether each held, and which of its terms.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tried: Vec<String>,
     /// The strategy, the behavior that was left and the one that was entered, by their places in the diagram.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge: Option<(usize, usize, usize)>,
@@ -148,7 +152,7 @@ impl HappeningFold {
         };
         let left = self.program.activities.get(*from as usize).map_or("?", |activity| &activity.name);
         let rule_text = one_line(&format!("{left} {}", rule.text));
-        Some(Why { rule: rule_text, place: one_line(&rule.place), values: told, edge })
+        Some(Why { rule: rule_text, place: one_line(&rule.place), values: told, tried: Vec::new(), edge })
     }
 
     /// The `abort` of the script that says the same, if one does.
@@ -161,7 +165,24 @@ impl HappeningFold {
         let mut aborts = self.program.activities.iter().flat_map(|activity| &activity.aborts);
         let abort = aborts.find(|abort| says_so(&abort.why))?;
         let rule = format!("abort \"{why}\" on {}", abort.text);
-        Some(Why { rule: one_line(&rule), place: one_line(&abort.place), values: Vec::new(), edge: None })
+        Some(Why {
+            rule: one_line(&rule),
+            place: one_line(&abort.place),
+            values: Vec::new(),
+            tried: Vec::new(),
+            edge: None,
+        })
+    }
+}
+
+/// Adds to each switch and abort the conditions that were tried in its tick.
+pub(super) fn add_tried(happenings: &mut [Happening], decisions: &[Decision]) {
+    for decision in decisions {
+        let lines = || decision.conditions.iter().flat_map(TriedCondition::terms_alone);
+        let tried: Vec<String> = lines().map(|line| one_line(&line).chars().take(LETTERS_MAX).collect()).collect();
+        let first = happenings.partition_point(|happening| happening.tick < decision.tick);
+        let same_tick = happenings[first..].iter_mut().take_while(|happening| happening.tick == decision.tick);
+        same_tick.filter_map(|happening| happening.why.as_mut()).for_each(|why| why.tried.clone_from(&tried));
     }
 }
 
