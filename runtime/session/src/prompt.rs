@@ -169,6 +169,9 @@ impl Prompt {
     }
 
     fn line(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        if let Some(answer) = self.told(text, say) {
+            return answer;
+        }
         let known = self.known();
         let read = self.loaded.lines.read(&*self.loaded.files, text, &known, self.origin());
         if !read.findings.is_empty() {

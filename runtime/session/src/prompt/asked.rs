@@ -1,9 +1,37 @@
-//! `why`: the conditions that were tried in a tick.
+//! What is asked and told without time going by: `why`, the conditions that were tried in a tick, and texts with values in them.
 
-use super::{Answer, Listener, Prompt, Say, wrong};
+use super::{Answer, Line, Listener, Prompt, Say, wrong};
+use albacore_machine::Event;
 use albacore_program::number;
+use albacore_vehicle::{Control, Snapshot};
 
 impl Prompt {
+    /// Tells a text with values in it, which stands alone on its line, as `log` would; none for any other line.
+    pub(super) fn told(&mut self, text: &str, say: &mut Listener) -> Option<Answer> {
+        let text = text.trim();
+        let is_text = text.starts_with('"') && text.ends_with('"') && text.contains('{');
+        let known = self.known();
+        let read = match is_text {
+            true => self.loaded.lines.read(&*self.loaded.files, &format!("log {text}"), &known, self.origin()),
+            false => return None,
+        };
+        let Some(Line::Statements(drive)) = read.line else {
+            say(Say::Findings(&read.findings, self.loaded.lines.sources()));
+            return Some(Answer::Wrong);
+        };
+        let mut machine = match self.machine(&drive, &known) {
+            Ok(machine) => machine,
+            Err(what) => return Some(wrong(&what, say)),
+        };
+        machine.step(&Snapshot { control: Control::InControl, ..self.now.snapshot.clone() });
+        let logged = machine.events().iter().find_map(|event| match event {
+            Event::Logged(text) => Some(text.as_str()),
+            _ => None,
+        });
+        logged.into_iter().for_each(|text| say(Say::Text(text)));
+        Some(Answer::Done)
+    }
+
     /// Tells the conditions of the last tick, or of that of a time since the beginning.
     pub(super) fn why(&mut self, time: Option<&str>, say: &mut Listener) -> Answer {
         let tick = match time {
