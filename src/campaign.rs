@@ -35,7 +35,7 @@ const REPORTS_MAX: usize = 1_000;
 /// So many ranges of lines are listed in a message, at most.
 const LISTED_MAX: usize = 12;
 /// Threads, at most.
-const THREADS_MAX: usize = 4_096;
+pub const THREADS_MAX: usize = 4_096;
 
 /// Run missions with many seeds, or do something with the tables of such.
 #[derive(clap::Args)]
@@ -334,7 +334,7 @@ fn listed(lines: &BTreeSet<usize>) -> String {
 }
 
 /// Reads a number of things of which there is at least one.
-fn from_1_to(most: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
+pub fn from_1_to(most: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| match text.parse() {
         Ok(number) if (1..=most).contains(&number) => Ok(number),
         _ => Err(format!("a whole number from 1 to {most} is needed")),

@@ -71,15 +71,23 @@ impl RunFolder {
 
     /// Makes the folder, or takes one that holds no run. Where that cannot be it is said, and nothing is begun: no vehicle has been
     /// told anything yet.
-    pub fn begin(place: &Place, started: Utc, mut record: Record) -> Result<Self, Exit> {
-        let refused = |Refusal(what, help, exit)| {
+    pub fn begin(place: &Place, started: Utc, record: Record) -> Result<Self, Exit> {
+        RunFolder::claimed(place, started, record).map_err(|Refusal(what, help, exit)| {
             message::error(&what, Some(help));
             exit
-        };
+        })
+    }
+
+    /// The same, which says nothing: gives what stands in the way.
+    pub fn claim(place: &Place, started: Utc, record: Record) -> Result<Self, String> {
+        RunFolder::claimed(place, started, record).map_err(|Refusal(what, ..)| what)
+    }
+
+    fn claimed(place: &Place, started: Utc, mut record: Record) -> Result<Self, Refusal> {
         // The first text of a record is as long as it is.
         let text = record.json(usize::MAX).map_err(io::Error::from);
-        let text = text.map_err(|error| refused(folder::unwritable(Path::new(folder::RECORD), &error)))?;
-        let folder = Folder::claim(place, started, &text).map_err(refused)?;
+        let text = text.map_err(|error| folder::unwritable(Path::new(folder::RECORD), &error))?;
+        let folder = Folder::claim(place, started, &text)?;
         Ok(RunFolder { files: Some((folder, record)), failed: false })
     }
 

@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 mod accepting;
+mod whole;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -64,7 +65,8 @@ impl Project {
     fn test_with(&self, variables: &[(&str, &str)], more: &[&str]) -> (Option<i32>, String) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
         command.arg("test").arg(&self.0).args(more).env("NO_COLOR", "1").envs(variables.iter().copied());
-        command.stdin(Stdio::null());
+        // What is kept of runs goes there.
+        command.stdin(Stdio::null()).current_dir(&self.0);
         let output = command.output().unwrap();
         let said = [output.stdout, output.stderr].concat();
         (output.status.code(), String::from_utf8_lossy(&said).replace(&self.0.display().to_string(), "."))

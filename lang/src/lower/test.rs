@@ -21,6 +21,8 @@ pub struct TestProgram {
     pub place: String,
     /// What it runs: the mission once, or for each row of its table.
     pub rows: Vec<RowProgram>,
+    /// The source in which the mission is declared.
+    pub mission_source: String,
     /// The scenario, by the name that the script calls it.
     pub scenario: String,
     /// The seeds, both ends included.
@@ -42,6 +44,8 @@ pub struct RowProgram {
     pub text: String,
     /// The mission, with what it is given.
     pub mission: Program,
+    /// What it is given, as the texts of `--set`: `east_leg.leg=30 s`.
+    pub set: Vec<String>,
     /// The values of the parameters that expectations speak of, where they are put, and their words.
     pub params: Vec<(Code, Slot, u32)>,
 }
@@ -162,6 +166,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
     let rows = test.rows.iter().zip(missions).zip(params).map(|((row, mission), params)| RowProgram {
         text: row.span.map_or(String::new(), |span| on_one_line(sources.text(span))),
         mission: mission.program,
+        set: set(hir, sources, test, row),
         params,
     });
     let rows = rows.collect();
@@ -170,6 +175,7 @@ pub fn test(hir: &Hir, types: &TypeTable, sources: &Sources, index: usize) -> Re
         file_name: test_file_name(&test.name),
         place: sources.place(test.span),
         rows,
+        mission_source: sources.get(hir.activities[test.mission].span.file).name.to_string(),
         scenario: hir.scenarios[test.scenario].path.clone(),
         seeds: test.seeds,
         expects,
@@ -218,6 +224,17 @@ fn given<'a>(l: &mut Lowering<'a>, test: &'a Test, row: &'a Row) -> Vec<(Code, S
         (l.code(e), l.frame.vars[*to], l.words(&e.ty))
     };
     test.params.iter().map(value).collect()
+}
+
+/// What the mission is given in a row, beside its defaults, as the texts of `--set`.
+fn set(hir: &Hir, sources: &Sources, test: &Test, row: &Row) -> Vec<String> {
+    let mission = &hir.activities[test.mission];
+    let given = |(param, value): (usize, &Expr)| {
+        let is_default = mission.defaults.get(param)?.as_ref().is_some_and(|default| default.span == value.span);
+        let text = on_one_line(sources.text(value.span));
+        (!is_default).then(|| format!("{}.{}={text}", mission.name, mission.vars[param].name))
+    };
+    row.args.iter().enumerate().filter_map(given).collect()
 }
 
 /// What is written on several lines, without their comments.

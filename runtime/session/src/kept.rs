@@ -128,15 +128,28 @@ impl Plan {
         let file = script.sources.iter().next().map_or_else(String::new, |source| source.name.to_string());
         let plan = match &header.world {
             World::Link => Plan::on_link(&script, &file, Some(mission), &header.scenario)?,
-            World::Scenario(scripts) if scripts.is_empty() => Plan::unsuited(&script, &file, &wanted)?,
+            World::Scenario(scripts) if scripts.is_empty() => {
+                let called = called(&script, scenario);
+                Plan::unsuited(&script, &file, &Wanted { scenario: Some(&called), ..wanted })?
+            }
             World::Scenario(scripts) => {
                 let world = Wanted { mission: None, scenario: Some(scenario), set: &others };
                 let other = is_sound(load_kept(scripts, data, &world.of_script(&others))?)?;
                 let (_, program) = chosen(&script, &file, Some(mission))?;
-                Plan::in_world_of(&other, &script, Arc::new(program), scenario)?
+                Plan::in_world_of(&other, &script, Arc::new(program), &called(&other, scenario))?
             }
         };
         Ok((script, plan))
+    }
+}
+
+/// A scenario as a script calls it: a journal has its name alone, and it may stand in a module.
+fn called(script: &Script, scenario: &str) -> String {
+    let is_meant = |known: &&str| known.rsplit_once('.').is_some_and(|(_, name)| name == scenario);
+    let mut meant = script.scenarios().filter(is_meant);
+    match (meant.next(), meant.next()) {
+        (Some(only), None) if script.scenarios().all(|known| known != scenario) => only.to_string(),
+        _ => scenario.to_string(),
     }
 }
 

@@ -217,6 +217,23 @@ impl Plan {
         })
     }
 
+    /// The same, of a mission that stands in a module of the script: a journal holds that module as the script, and the script as that of
+    /// the world.
+    pub(crate) fn of_module(self, module: &Path) -> Self {
+        let script = self.sources.first().map_or("", |source| source.name.as_str());
+        let folder = Path::new(script).parent().unwrap_or(Path::new(""));
+        let name = seen_from(folder, &module.display().to_string());
+        match self.scripts.iter().position(|script| script.name == name) {
+            Some(at) if at > 0 => {
+                let mut scripts = self.scripts.to_vec();
+                scripts[..=at].rotate_right(1);
+                let world = Arc::new(World::Scenario(self.scripts.to_vec()));
+                Plan { scripts: scripts.into(), world, ..self }
+            }
+            _ => self,
+        }
+    }
+
     /// What is known of the water's depth beforehand, where it was surveyed. What a scenario makes up is no knowledge of a place.
     pub(crate) fn chart(&self) -> Option<Chart> {
         let survey = Arc::clone(self.survey.as_ref()?);

@@ -2,6 +2,7 @@
 //! feed the same ones.
 
 pub(crate) mod account;
+pub(crate) mod covered;
 pub(crate) mod digest;
 pub(crate) mod expectations;
 pub(crate) mod exported;
