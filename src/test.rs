@@ -178,8 +178,7 @@ impl Test {
         if self.json || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
         }
-        let runs = (test.seeds.1 - test.seeds.0 + 1) * test.rows.len() as u64;
-        let bar = ProgressBar::new(runs);
+        let bar = ProgressBar::new(runs(test));
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} to go  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
@@ -240,7 +239,8 @@ impl Testing<'_> {
             Ok(result) => {
                 if result.is_none() {
                     let ran = ran.load(Ordering::Relaxed);
-                    self.broken_off = format!(" in \"{}\", of which {ran} runs were over", test.name);
+                    let all = runs(test);
+                    self.broken_off = format!(" in \"{}\": {ran} of its {all} runs were over", test.name);
                 }
                 Ok(result)
             }
@@ -352,6 +352,11 @@ impl Testing<'_> {
         message::error(&format!("{what}{}", self.broken_off), Some(&help));
         if self.unwritten { Exit::Failed } else { Exit::NotWell }
     }
+}
+
+/// How many runs a test has.
+fn runs(test: &TestProgram) -> u64 {
+    (test.seeds.1 - test.seeds.0 + 1) * test.rows.len() as u64
 }
 
 fn outcome(at: &Named, result: &TestResult, problems: &[Problem], snapshots: Vec<Snapshot>) -> Outcome {

@@ -1,6 +1,6 @@
 //! `--junit`: the results as an XML file in the form of JUnit, a suite for each script. It holds no time: the same results are the same bytes.
 
-use super::results::{Outcome, Results};
+use super::results::{MARGIN, Outcome, Results};
 use crate::disk;
 use crate::made::{Comment, Made};
 use albacore_session::seen::one_line;
@@ -57,9 +57,10 @@ fn case(out: &mut String, test: &Outcome) {
     if let Some(why) = test.left_out {
         out.push_str(&format!("      <skipped message=\"{}\"/>\n", escaped(why)));
     } else {
-        let mut texts: Vec<String> = test.failures.iter().map(|wrong| wrong.text.clone()).collect();
-        texts.extend(test.kept.iter().flat_map(|kept| kept.lines()).map(|line| line.trim_start().to_string()));
-        let lines: Vec<String> = texts.iter().flat_map(|text| text.split('\n')).map(escaped).collect();
+        let mut lines: Vec<String> =
+            test.failures.iter().flat_map(|wrong| wrong.text.split('\n')).map(escaped).collect();
+        let kept = test.kept.iter().flat_map(|kept| kept.lines());
+        lines.extend(kept.map(|line| escaped(line.strip_prefix(MARGIN).unwrap_or(&line))));
         let message = format!("{}  {}", escaped(&test.place), lines.first().map_or("", String::as_str));
         let text = lines.join("\n");
         out.push_str(&format!("      <failure message=\"{}\">{text}</failure>\n", message.trim_end()));

@@ -81,7 +81,7 @@ pub struct Wrong {
 }
 
 /// The margin of what is printed below a test.
-const MARGIN: &str = "        ";
+pub const MARGIN: &str = "        ";
 
 impl From<&Problem> for Wrong {
     fn from(problem: &Problem) -> Self {

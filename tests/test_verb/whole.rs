@@ -289,6 +289,25 @@ fn who_interrupts_is_told_what_was_done() {
     assert_eq!(child.0.wait().unwrap().code(), Some(1), "{rest}{errors}");
     assert_eq!(rest, "1 passed, 0 failed\n");
     assert!(errors.contains("error: interrupted"), "{errors}");
+    assert!(!errors.contains("900000 of"), "what was broken off is not over: {errors}");
     assert!(errors.contains("1 test was run, and `out.xml` is not written"), "{errors}");
     assert_eq!(names(&project.0), ["north.alb"]);
+}
+
+/// What others called their files and tests is shown, and never obeyed.
+#[test]
+fn results_hold_nothing_unseen() {
+    let evil = "e\u{1b}[2J\u{202e}\u{9b}31mvil";
+    let project = project("unseen", "");
+    let script = COVERED.replace("goes north", "goes\\nnorth");
+    std::fs::write(project.0.join(format!("{evil}.alb")), script).unwrap();
+    std::fs::write(project.0.join("north.alb"), format!("mission {evil} {{\n")).unwrap();
+    let (code, told, errors) = said(albacore(&project, &["test", ".", "--json", "--coverage", "--junit", "out.xml"]));
+    let xml = std::fs::read_to_string(project.0.join("out.xml")).unwrap_or_default();
+    assert_eq!(code, Some(3), "{told}{errors}");
+    assert!(xml.contains("errors=\"1\"") && xml.contains("failures=\"2\""), "{xml}");
+    for text in [told, errors, xml] {
+        let unseen = text.chars().find(|c| albacore_session::seen::is_unseen(*c) && *c != '\n');
+        assert_eq!(unseen, None, "{}", text.escape_debug());
+    }
 }

@@ -77,7 +77,7 @@ pub struct Part {
 impl Part {
     /// In tenths of a per cent, rounded down: of what is not whole it is never all. Of nothing it is all.
     pub fn per_mille(self) -> u64 {
-        if self.of == 0 { 1000 } else { self.count * 1000 / self.of }
+        (self.count * 1000).checked_div(self.of).unwrap_or(1000)
     }
 
     /// Whether so many per cent are reached.
@@ -287,5 +287,20 @@ impl Sites {
             behaviors: BTreeMap::new(),
             transitions: BTreeMap::new(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Part;
+
+    #[test]
+    fn what_is_not_whole_is_never_all() {
+        let part = |count, of| Part { count, of };
+        assert_eq!(part(1999, 2000).per_mille(), 999);
+        assert!(!part(1999, 2000).reaches(100) && part(2000, 2000).reaches(100));
+        assert!(part(4, 5).reaches(80) && !part(4, 5).reaches(81));
+        assert_eq!(part(0, 0).per_mille(), 1000);
+        assert!(part(0, 0).reaches(100), "nothing is missing of nothing");
     }
 }

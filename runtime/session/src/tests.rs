@@ -56,7 +56,7 @@ pub struct TestOptions<'a> {
     pub coverage: bool,
     /// Whoever raises it ends all runs, and there is no result.
     pub stop: &'a AtomicBool,
-    /// Called with the end of each run, on its thread.
+    /// Called when a run has come to its end, on its thread.
     pub ran: &'a (dyn Fn() + Sync),
 }
 
@@ -126,7 +126,7 @@ pub fn run_test_with(
             }
             judged
         });
-        (options.ran)();
+        judged.iter().for_each(|_| (options.ran)());
         Ok(judged)
     };
     // A system that gives no more threads has one: it takes longer, and the result is the same.
