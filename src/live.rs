@@ -2,6 +2,7 @@
 
 use crate::exit::Exit;
 use crate::interruption;
+use crate::live_page::LivePage;
 use crate::message;
 use crate::run::{self, ResultPrinter};
 use crate::run_folder::{Left, RunFolder};
@@ -24,6 +25,8 @@ const CTRL_Z: &str =
 pub struct Live {
     /// Shows messages and progress.
     pub speaker: Speaker,
+    /// The page that is served of it.
+    pub page: Option<LivePage>,
     /// Where the journal goes, and what was changed for this run.
     pub journal: Option<(Sink, Vec<String>)>,
     /// Raised when the run is to end.
@@ -37,7 +40,7 @@ pub struct Live {
 impl Live {
     /// Runs to the end, gives the vehicle back, and then waits for terminal and disk no longer than is stated.
     pub fn run(self, run: Run) -> Exit {
-        let Live { speaker, journal, interrupted, mut kept, printer } = self;
+        let Live { speaker, page, journal, interrupted, mut kept, printer } = self;
         let stopping = interruption::ctrl_z();
         let watch = kept.watch();
         let mut report = |told: LiveUpdate<'_>| {
@@ -46,9 +49,9 @@ impl Live {
             }
             match told {
                 LiveUpdate::Notice(notice) => message::write(&message::line(&format!("link: {notice}"))),
-                LiveUpdate::Progress(tick, active) => {
+                LiveUpdate::Progress(status, active) => {
                     kept.ticks();
-                    speaker.progress(tick / 10, || active.join(" > "));
+                    speaker.progress(|| status.line(active));
                 }
                 LiveUpdate::JournalFailed(error) => message::write(&kept.journal_failed(&error)),
                 LiveUpdate::Nothing => {}
@@ -78,6 +81,9 @@ impl Live {
             printer.print(&told, outcome, &left);
             failed
         });
+        if let Some(page) = page {
+            page.end();
+        }
         // A result that nobody could be told is a failure too.
         ResultPrinter::exit(outcome, release_failed || !all_said || told.unwrap_or(true))
     }

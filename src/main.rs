@@ -14,6 +14,7 @@ mod fmt;
 mod graph;
 mod interruption;
 mod live;
+mod live_page;
 mod made;
 mod message;
 mod moment;

@@ -1,6 +1,6 @@
 //! `albacore report`: a run as one page that needs nothing else.
 
-mod page;
+pub mod page;
 
 use crate::exit::Exit;
 use crate::made::{Comment, Made};

@@ -4,6 +4,7 @@ use crate::campaign::seeds;
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
 use crate::live::Live;
+use crate::live_page::Waiting;
 use crate::output::Lines;
 use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::run_folder::{Left, Place, Record, RunFolder, RunRequest};
@@ -31,6 +32,8 @@ const REPORTS_TOLD_MAX: usize = 20;
 const VALUE_CHARS_MAX: usize = 160;
 /// Ticks between two looks of the person at the progress.
 const TICKS_AT_ONCE: u64 = 100;
+/// ... and of a run that is looked at while it goes on.
+const STATUS_TICKS: u64 = 10;
 
 /// A plan, a run of it at its first tick, and what is raised when nothing is left to go on with.
 type Prepared = (Plan, MissionRun, Arc<AtomicBool>);
@@ -75,6 +78,13 @@ pub struct Run {
     /// The picture shows this time of the run alone: `2400s..2600s`.
     #[arg(long, value_name = "A..B", value_parser = zoom::parse, conflicts_with = "no_out", allow_negative_numbers = true)]
     zoom: Option<RangeInclusive<u64>>,
+    /// Serve a page of the run while it goes on, to browsers of this machine alone: a map, timelines and what happened, as `albacore report`
+    /// shows them afterwards. Its address is printed.
+    #[arg(long)]
+    live: bool,
+    /// The port of that page; else any that is free.
+    #[arg(long, value_name = "N", requires = "live", default_value_t = 0, hide_default_value = true)]
+    port: u16,
     /// Print the result as one JSON object on standard output.
     #[arg(long)]
     json: bool,
@@ -85,68 +95,99 @@ impl Run {
     pub fn run(&self) -> Exit {
         interruption::hear_faults();
         // A terminal that takes nothing holds no run on a link, from the first message on.
-        let speaker = match self.link.as_ref().map(|_| Speaker::new()).transpose() {
+        let speaks = self.link.is_some() || self.live;
+        let speaker = match speaks.then(Speaker::new).transpose() {
             Ok(speaker) => speaker,
             Err(error) => return no_thread(&error),
         };
-        if speaker.is_some()
+        if self.link.is_some()
             && let Err(exit) = hears_requests()
         {
             return exit;
         }
-        let script = match self.choice.script(&self.script) {
-            Ok(script) => script,
-            Err(exit) => return exit,
-        };
+        self.prepared(speaker).unwrap_or_else(|exit| exit)
+    }
+
+    /// Prepares the run and goes on with it.
+    fn prepared(&self, speaker: Option<Speaker>) -> Result<Exit, Exit> {
+        // A port that is taken costs nobody a run.
+        let waiting = self.live.then(|| Waiting::at(self.port)).transpose()?;
+        let script = self.choice.script(&self.script)?;
         let started = now();
-        let (plan, mut run, is_over) = match self.prepare(&script) {
-            Ok(prepared) => prepared,
-            Err(exit) => return exit,
-        };
+        let (plan, mut run, is_over) = self.prepare(&script)?;
         if let Some(ticks) = &self.zoom {
             run.zoom(ticks.clone());
         }
         let printer = ResultPrinter { json: self.json, on_link: self.link.is_some(), started };
         let interrupted = interruption::flag();
-        // A vehicle that never answers costs nobody the run that was there.
         if self.replace && self.link.is_some() {
-            let folder = self.out.as_deref().unwrap_or(Path::new(""));
-            let help = format!("nothing in `{}` was touched", folder.display());
-            match run.hear(&interrupted) {
-                Ok(true) => {}
-                Ok(false) => {
-                    message::error("interrupted before the vehicle was heard", Some(&help));
-                    return Exit::NotWell;
+            self.hear(&mut run, &interrupted)?;
+        }
+        let page = waiting.map(|waiting| {
+            let report = run.watched(&script, &self.changes()).map_err(|error| no_thread(&error))?;
+            waiting.serve(report)
+        });
+        let page = page.transpose()?;
+        let mut kept = self.kept(&plan)?;
+        // On a link each tick is in the file at once; a simulated run can be had again.
+        let sink = if self.link.is_some() { Synced::new } else { Synced::gathering };
+        let journal = kept.journal().map(|file| (Box::new(sink(file, 0)) as Sink, self.changes()));
+        if let Some(speaker) = &speaker {
+            let (json, doing) = (self.json, plan.program.mission.name.clone());
+            speaker.shows(move || status_bar(json, &doing));
+        }
+        match speaker {
+            Some(speaker) if self.link.is_some() => {
+                Ok(Live { speaker, page, journal, interrupted, kept, printer }.run(run))
+            }
+            speaker => {
+                if let Some((journal, changes)) = journal {
+                    run.with_journal(journal, &changes);
                 }
-                Err(error) => {
-                    message::error(&error.to_string(), Some(&help));
-                    return Exit::Failed;
+                let outcome = self.drive(&mut run, &mut kept, &interrupted, &is_over, speaker.as_ref());
+                drop(speaker);
+                let exit = self.finish(&plan, &run, &mut kept, printer, outcome);
+                if let Some(page) = page {
+                    page.end();
                 }
+                Ok(exit)
             }
         }
-        let mut kept = match self.kept(&plan) {
-            Ok(kept) => kept,
-            Err(exit) => return exit,
-        };
-        // On a link each tick is in the file at once; a simulated run can be had again.
-        let sink = if speaker.is_some() { Synced::new } else { Synced::gathering };
-        let journal = kept.journal().map(|file| (Box::new(sink(file, 0)) as Sink, self.changes()));
-        if let Some(speaker) = speaker {
-            let (json, doing) = (self.json, plan.program.mission.name.clone());
-            speaker.shows(move || bar(json, &doing));
-            return Live { speaker, journal, interrupted, kept, printer }.run(run);
+    }
+
+    /// Waits for a vehicle at the end of a link: one that never answers costs nobody the run that was there.
+    fn hear(&self, run: &mut MissionRun, interrupted: &AtomicBool) -> Result<(), Exit> {
+        let folder = self.out.as_deref().unwrap_or(Path::new(""));
+        let help = format!("nothing in `{}` was touched", folder.display());
+        match run.hear(interrupted) {
+            Ok(true) => Ok(()),
+            Ok(false) => {
+                message::error("interrupted before the vehicle was heard", Some(&help));
+                Err(Exit::NotWell)
+            }
+            Err(error) => {
+                message::error(&error.to_string(), Some(&help));
+                Err(Exit::Failed)
+            }
         }
-        if let Some((journal, changes)) = journal {
-            run.with_journal(journal, &changes);
-        }
-        let outcome = self.drive(&mut run, &mut kept, &interrupted, &is_over);
+    }
+
+    /// Writes what a run in a simulated world leaves, and tells its result.
+    fn finish(
+        &self,
+        plan: &Plan,
+        run: &MissionRun,
+        kept: &mut RunFolder,
+        printer: ResultPrinter,
+        outcome: Outcome,
+    ) -> Exit {
         let summary = run.summary(printer.wall_s());
-        warn_of_faults_after(std::iter::once(&plan), summary.sim_time_s);
+        warn_of_faults_after(std::iter::once(plan), summary.sim_time_s);
         if self.zoom.as_ref().is_some_and(|ticks| *ticks.start() > summary.ticks) {
             let message = format!("nothing is in the picture: the run was over after {:.1} s", summary.sim_time_s);
             message::warning(&message, "choose an earlier time for `--zoom`");
         }
-        let left = kept.finish(&run, &summary);
+        let left = kept.finish(run, &summary);
         left.tell_troubles();
         printer.print(&RunResult::new(&summary, left.folder.as_deref()), outcome, &left);
         ResultPrinter::exit(outcome, kept.has_failed() || run.release_failed())
@@ -245,8 +286,10 @@ impl Run {
         kept: &mut RunFolder,
         interrupted: &AtomicBool,
         is_over: &AtomicBool,
+        speaker: Option<&Speaker>,
     ) -> Outcome {
-        let bar = bar(self.json, "");
+        // Who speaks draws, and may be held by the terminal.
+        let bar = if speaker.is_some() { ProgressBar::hidden() } else { bar(self.json, "") };
         let mut pace = self.rate.map(Pace::new);
         loop {
             if let Some(pace) = &mut pace {
@@ -271,7 +314,9 @@ impl Run {
                 bar.finish_and_clear();
                 return outcome;
             }
-            if run.tick().is_multiple_of(TICKS_AT_ONCE) {
+            if let Some(speaker) = speaker.filter(|_| run.tick().is_multiple_of(STATUS_TICKS)) {
+                speaker.progress(|| run.status_line());
+            } else if run.tick().is_multiple_of(TICKS_AT_ONCE) {
                 bar.set_position(run.tick() / 10);
                 bar.set_message(run.under_way().join(" > "));
             }
@@ -281,12 +326,20 @@ impl Run {
 
 /// Progress, where a person looks at it.
 fn bar(json: bool, doing: &str) -> ProgressBar {
+    bar_with("{spinner} {pos} s  {msg}", json, doing)
+}
+
+/// How a run stands, on one line of the terminal, however long it is.
+fn status_bar(json: bool, doing: &str) -> ProgressBar {
+    bar_with("{spinner} {wide_msg}", json, doing)
+}
+
+fn bar_with(template: &str, json: bool, doing: &str) -> ProgressBar {
     if json || !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new_spinner();
-    let style =
-        ProgressStyle::with_template("{spinner} {pos} s  {msg}").unwrap_or_else(|_| ProgressStyle::default_spinner());
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner());
     bar.set_style(style);
     bar.set_message(doing.to_string());
     bar

@@ -36,8 +36,8 @@ enum Said {
     Lines(String),
     /// A progress bar is made, which nobody else may touch: it draws.
     Bar(Box<dyn FnOnce() -> ProgressBar + Send>),
-    /// Seconds, and what is under way.
-    Progress(u64, String),
+    /// How things stand.
+    Progress(String),
 }
 
 impl Speaker {
@@ -61,9 +61,9 @@ impl Speaker {
     }
 
     /// Shows where things are, if nothing else is to be said.
-    pub fn progress(&self, seconds: u64, doing: impl FnOnce() -> String) {
+    pub fn progress(&self, told: impl FnOnce() -> String) {
         if let Some(queue) = self.queue.as_ref().filter(|queue| queue.waiting.load(Ordering::Relaxed) == 0) {
-            queue.put(Said::Progress(seconds, doing()));
+            queue.put(Said::Progress(told()));
         }
     }
 
@@ -129,10 +129,7 @@ fn speak(said: &Receiver<Said>, waiting: &AtomicUsize, speaks: &Sender<()>) {
         match said {
             Said::Lines(lines) => bar.suspend(|| message::print(&lines)),
             Said::Bar(make) => bar = make(),
-            Said::Progress(seconds, doing) => {
-                bar.set_position(seconds);
-                bar.set_message(doing);
-            }
+            Said::Progress(told) => bar.set_message(told),
         }
         waiting.fetch_sub(1, Ordering::Relaxed);
         let _ = speaks.send(());

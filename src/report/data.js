@@ -13,37 +13,19 @@ addEventListener("error", (event) => {
 
 // What the page is about: the embedded data, unpacked, and what is asked of it at a moment.
 {
-  const raw = JSON.parse(document.getElementById("data").textContent);
-  report.head = raw.head;
-  report.world = raw.world;
-  report.reports = raw.reports;
-  report.diagrams = raw.diagrams;
-  report.activities = raw.activities;
-  report.detection = raw.detection === null ? null : raw.detection * 100;
-  report.every = raw.every_s;
-  report.leftOut = raw.happenings_left_out;
-  // A run that is over at once has an axis all the same.
-  report.end = Math.max(raw.head.time_s, 1);
-
-  // Whole numbers that are told as differences; what is missing is no number.
-  function unpacked(list, scale) {
+  // Whole numbers that are told as differences, or as they are; what is missing is no number.
+  function unpacked(list, scale, isWhole) {
     const out = new Float64Array(list.length);
     let sum = 0;
     for (let i = 0; i < list.length; i++) {
       if (list[i] === null) {
         out[i] = NaN;
       } else {
-        sum += list[i];
+        sum = isWhole ? list[i] : sum + list[i];
         out[i] = sum / scale;
       }
     }
     return out;
-  }
-
-  report.series = new Map();
-  for (const one of raw.series) {
-    const values = unpacked(one.values, 10 ** one.decimals);
-    report.series.set(one.name, { name: one.name, unit: one.unit, decimals: one.decimals, values });
   }
 
   // What follows from series that are there, such as the bottom from depth and altitude.
@@ -58,28 +40,92 @@ addEventListener("error", (event) => {
     report.series.set(name, { name, unit, decimals, values });
   }
   const turned = (radians) => ((radians * 180) / Math.PI + 360) % 360;
-  derive("bottom", "m", 1, ["depth", "altitude"], (depth, altitude) => depth + altitude);
-  for (const flow of ["flow", "flow_below"]) {
-    derive(`${flow}_speed`, "m/s", 3, [`${flow}_north`, `${flow}_east`], (n, e) => Math.hypot(n, e));
-    derive(`${flow}_toward`, "deg", 0, [`${flow}_north`, `${flow}_east`], (n, e) => turned(Math.atan2(e, n)));
-  }
-  const apart = ["north", "east", "true_north", "true_east"];
-  derive("position_error", "m", 1, apart, (n, e, tn, te) => Math.hypot(n - tn, e - te));
 
   const slot = (t) => Math.round(t / report.every);
   // A number of a series stands for so long, s, until the next: for some seconds, and of an instrument that is slow longer.
   const OLD_S = 5;
-  for (const series of report.series.values()) {
-    const gaps = [];
-    let before = null;
-    series.values.forEach((x, i) => {
-      if (Number.isNaN(x)) return;
-      if (before !== null) gaps.push(i - before);
-      before = i;
-    });
-    gaps.sort((a, b) => a - b);
-    series.old = Math.max(OLD_S, 2.5 * (gaps[gaps.length >> 1] ?? 1) * report.every);
+
+  let [frames, frameEvery, ready] = [[], 1, new Map()];
+  // What is told with its reason when nothing is chosen: the last of these.
+  const TOLD = new Set(["switch", "resume", "abort", "timeout", "stale", "hold"]);
+
+  function loadSeries(raw) {
+    report.series = new Map();
+    for (const one of raw.series) {
+      const values = unpacked(one.values, 10 ** one.decimals, raw.isWhole);
+      report.series.set(one.name, { name: one.name, unit: one.unit, decimals: one.decimals, values });
+    }
+    derive("bottom", "m", 1, ["depth", "altitude"], (depth, altitude) => depth + altitude);
+    for (const flow of ["flow", "flow_below"]) {
+      derive(`${flow}_speed`, "m/s", 3, [`${flow}_north`, `${flow}_east`], (n, e) => Math.hypot(n, e));
+      derive(`${flow}_toward`, "deg", 0, [`${flow}_north`, `${flow}_east`], (n, e) => turned(Math.atan2(e, n)));
+    }
+    const apart = ["north", "east", "true_north", "true_east"];
+    derive("position_error", "m", 1, apart, (n, e, tn, te) => Math.hypot(n - tn, e - te));
+    for (const series of report.series.values()) {
+      const gaps = [];
+      let before = null;
+      series.values.forEach((x, i) => {
+        if (Number.isNaN(x)) return;
+        if (before !== null) gaps.push(i - before);
+        before = i;
+      });
+      gaps.sort((a, b) => a - b);
+      series.old = Math.max(OLD_S, 2.5 * (gaps[gaps.length >> 1] ?? 1) * report.every);
+    }
   }
+
+  // When each activity was active, by level. Stretches of a level do not overlap, so that a moment is found by halving.
+  function loadSpans(raw) {
+    report.levels = [];
+    const { activity, level, from, ticks } = raw.spans;
+    let tick = 0;
+    for (let i = 0; i < activity.length; i++) {
+      tick = raw.isWhole ? from[i] : tick + from[i];
+      // What has not ended lasts as long as the run has lasted.
+      const to = ticks[i] === null ? raw.head.ticks : tick + ticks[i];
+      (report.levels[level[i]] ??= []).push({ activity: activity[i], from: tick / 10, to: to / 10 });
+    }
+    for (let i = 0; i < report.levels.length; i++) report.levels[i] ??= [];
+  }
+
+  // Parts of the page that look at the data once are told when it is other.
+  const loaders = [];
+  report.whenLoaded = function (loader) {
+    loaders.push(loader);
+    loader();
+  };
+
+  report.load = function (raw) {
+    report.head = raw.head;
+    report.reports = raw.reports;
+    report.diagrams = raw.diagrams;
+    report.activities = raw.activities;
+    report.detection = raw.detection === null ? null : raw.detection * 100;
+    report.every = raw.every_s;
+    report.leftOut = raw.happenings_left_out;
+    // A run that is over at once has an axis all the same.
+    report.end = Math.max(raw.head.time_s, 1);
+    loadSeries(raw);
+    loadSpans(raw);
+    report.colours = unpacked(raw.colours, 1, raw.isWhole);
+    if (report.happenings?.length !== raw.happenings.length) {
+      report.happenings = raw.happenings.map((line, index) => ({ ...line, t: line.tick / 10, index }));
+      report.switches = report.happenings.filter((line) => line.verb === "switch" || line.verb === "resume");
+      report.decisions = report.happenings.filter((line) => TOLD.has(line.verb));
+    }
+    frames = raw.plume === null ? [] : raw.plume.frames;
+    frameEvery = raw.plume === null ? 1 : raw.plume.every_s;
+    ready = new Map();
+    report.hasPlume = frames.some((frame) => frame[0].length > 0);
+    if (report.world !== raw.world) {
+      const { bottom } = raw.world;
+      report.world = raw.world;
+      report.bottom = bottom === null ? null : { cells: bottom.cells, depths: unpacked(bottom.depths, 10) };
+    }
+    for (const loader of loaders) loader();
+  };
+
   // The number of a series at a moment: the last one, if it still stands.
   report.value = function (name, t) {
     const series = report.series.get(name);
@@ -100,19 +146,6 @@ addEventListener("error", (event) => {
     const unit = series.unit === "deg" ? "°" : series.unit === "" ? "" : ` ${series.unit}`;
     return x.toFixed(digits) + unit;
   };
-
-  // When each activity was active, by level. Stretches of a level do not overlap, so that a moment is found by halving.
-  report.levels = [];
-  {
-    const { activity, level, from, ticks } = raw.spans;
-    let tick = 0;
-    for (let i = 0; i < activity.length; i++) {
-      tick += from[i];
-      const span = { activity: activity[i], from: tick / 10, to: (tick + ticks[i]) / 10 };
-      (report.levels[level[i]] ??= []).push(span);
-    }
-    for (let i = 0; i < report.levels.length; i++) report.levels[i] ??= [];
-  }
 
   // The last place in a sorted list whose time is not after a moment; -1 for none.
   report.lastBefore = function (list, t, time) {
@@ -138,23 +171,12 @@ addEventListener("error", (event) => {
     return chain;
   };
 
-  report.colours = unpacked(raw.colours, 1);
   report.behaviorAt = (at) => (at < report.colours.length ? report.colours[at] : NaN);
 
-  report.happenings = raw.happenings.map((line, index) => ({ ...line, t: line.tick / 10, index }));
-  report.switches = report.happenings.filter((line) => line.verb === "switch" || line.verb === "resume");
-
-  // What is told with its reason when nothing is chosen: the last of these.
-  const TOLD = new Set(["switch", "resume", "abort", "timeout", "stale", "hold"]);
-  report.decisions = report.happenings.filter((line) => TOLD.has(line.verb));
-
   // The plume at the moment before; its lists are unpacked when they are wanted.
-  const frames = raw.plume === null ? [] : raw.plume.frames;
-  const ready = new Map();
-  report.hasPlume = frames.some((frame) => frame[0].length > 0);
   report.plumeAt = function (t) {
     if (!report.hasPlume) return null;
-    const at = Math.max(0, Math.min(frames.length - 1, Math.round(t / raw.plume.every_s)));
+    const at = Math.max(0, Math.min(frames.length - 1, Math.round(t / frameEvery)));
     if (!ready.has(at)) {
       const [north, east, radius] = frames[at];
       ready.set(at, { north: unpacked(north, 1), east: unpacked(east, 1), radius: unpacked(radius, 10) });
@@ -162,17 +184,14 @@ addEventListener("error", (event) => {
     return ready.get(at);
   };
 
-  const bottom = raw.world.bottom;
-  report.bottom = bottom === null ? null : { cells: bottom.cells, depths: unpacked(bottom.depths, 10) };
-
   // Latitude and longitude of a place: a parabola each way through nine known points, which is right to centimetres.
   function parabola(share, a, b, c) {
     return a * 2 * (share - 0.5) * (share - 1) + b * 4 * share * (1 - share) + c * 2 * share * (share - 0.5);
   }
   report.globe = function (north, east) {
-    const points = raw.world.globe;
+    const points = report.world.globe;
     if (points === null) return "";
-    const { south, west, north: top, east: right } = raw.world.extent;
+    const { south, west, north: top, east: right } = report.world.extent;
     const [n, e] = [(north - south) / (top - south), (east - west) / (right - west)];
     const part = (of) => {
       const row = (i) => parabola(e, points[i][of], points[i + 1][of], points[i + 2][of]);
@@ -192,4 +211,6 @@ addEventListener("error", (event) => {
     const hours = Math.floor(whole / 3600);
     return `${hours > 0 ? `${hours}:` : ""}${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)}`;
   };
+
+  report.load(JSON.parse(document.getElementById("data").textContent));
 }

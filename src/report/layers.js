@@ -6,10 +6,9 @@
   // Okabe and Ito's colours, less yellow, plus wine and grey, as in the picture of a run; lighter in the dark.
   const LIGHT = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#6b6b6b"];
   const DARK = ["#4aa8e0", "#ff8a3c", "#2fd0a0", "#e79cc8", "#f2b632", "#8fd0f7", "#d0668f", "#a8a8a8"];
-  report.shownBehaviors = [];
-  for (const id of report.colours) {
-    if (!Number.isNaN(id) && !report.shownBehaviors.includes(id)) report.shownBehaviors.push(id);
-  }
+  report.whenLoaded(() => {
+    report.shownBehaviors = Array.from(new Set(report.colours)).filter((id) => !Number.isNaN(id));
+  });
   report.colourOf = function (activity) {
     const palette = report.isDark() ? DARK : LIGHT;
     const at = report.shownBehaviors.indexOf(activity);
@@ -65,9 +64,14 @@
   };
 
   // The bottom is drawn once, small, and stretched.
-  let bottomImage = null;
-  const depths = Array.from(report.bottom?.depths ?? []).filter((depth) => !Number.isNaN(depth));
-  map.bottomRange = [Math.max(0, depths.reduce((a, b) => Math.min(a, b), Infinity)), depths.reduce((a, b) => Math.max(a, b), 0)];
+  let [bottomImage, imageOf] = [null, null];
+  report.whenLoaded(() => {
+    if (map.colour !== "behavior") map.colourBy(map.colour);
+    if (report.bottom === imageOf) return;
+    [bottomImage, imageOf] = [null, report.bottom];
+    const depths = Array.from(report.bottom?.depths ?? []).filter((depth) => !Number.isNaN(depth));
+    map.bottomRange = [Math.max(0, depths.reduce((a, b) => Math.min(a, b), Infinity)), depths.reduce((a, b) => Math.max(a, b), 0)];
+  });
   function bottomPicture() {
     const { cells, depths } = report.bottom;
     const [least, most] = map.bottomRange;

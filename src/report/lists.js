@@ -31,7 +31,8 @@
 
   function list() {
     const all = report.happenings.filter((one) => chosen[kindOf(one.verb)]);
-    rows = all.slice(0, ROWS_MAX).map((one) => {
+    // Of a run that goes on the newest are wanted.
+    rows = (report.isLive ? all.slice(-ROWS_MAX) : all.slice(0, ROWS_MAX)).map((one) => {
       const row = element("button", "");
       row.type = "button";
       row.tabIndex = -1;
@@ -45,10 +46,12 @@
       });
       return { one, row };
     });
+    const before = lines.scrollTop;
     lines.replaceChildren(...rows.map(({ row }) => row));
+    lines.scrollTop = before;
     const beyond = all.length - rows.length;
     if (all.length === 0) lines.append(element("p", "", "Nothing of this happened."));
-    if (beyond > 0) lines.append(element("p", "", `${beyond} more lines: choose fewer kinds above to see them.`));
+    if (beyond > 0) lines.append(element("p", "", `${beyond} ${report.isLive ? "earlier" : "more"} lines: choose fewer kinds above to see them.`));
     if (report.leftOut > 0) lines.append(element("p", "", `${report.leftOut} lines were left out of this page: they are in the trace.`));
     marked = null;
     mark(report.t);
@@ -117,6 +120,8 @@
   const drawn = [];
   function drawDiagrams() {
     const room = document.getElementById("diagrams");
+    room.replaceChildren();
+    drawn.length = 0;
     for (const diagram of report.diagrams) {
       const figure = element("figure", "");
       if (diagram.svg === null) {
@@ -205,36 +210,44 @@
   }
   report.drawLegend = legend;
 
+  // What may be chosen above map and list: made anew only when there is something else to choose.
+  const colour = document.getElementById("colour");
+  const NO_COLOURS = new Set(["north", "east", "true_north", "true_east", "chemical_least"]);
+  let offered = "";
+  function offer() {
+    const { map } = report;
+    const colours = ["behavior", ...Array.from(report.series.keys()).filter((one) => !NO_COLOURS.has(one))];
+    const isThere = { plume: report.hasPlume, bottom: report.bottom !== null, truth: report.series.has("true_north"), detections: report.detection !== null && report.series.has("chemical"), reports: report.reports.some((one) => one.north !== null), grid: true };
+    const layers = Object.keys(map.shown).filter((name) => isThere[name]);
+    const verbs = new Set(report.happenings.map((one) => kindOf(one.verb)));
+    const kinds = KINDS.map((_, kind) => kind).filter((kind) => verbs.has(kind));
+    const now = JSON.stringify([colours, layers, kinds]);
+    if (now === offered) return;
+    offered = now;
+    colour.replaceChildren(...colours.map((name) => new Option(name.replaceAll("_", " "), name, false, name === map.colour)));
+    const layer = (name) => choice(name, map.shown[name], (isOn) => {
+      map.shown[name] = isOn;
+      map.draw();
+    });
+    document.getElementById("layers").replaceChildren(...layers.map(layer));
+    const filter = (kind) => choice(KINDS[kind][0], chosen[kind], (isOn) => {
+      chosen[kind] = isOn;
+      list();
+    });
+    document.getElementById("filters").replaceChildren(...kinds.map(filter));
+  }
+
   report.startLists = function () {
     const { map } = report;
-    const colour = document.getElementById("colour");
-    const left = new Set(["north", "east", "true_north", "true_east", "chemical_least"]);
-    for (const name of ["behavior", ...Array.from(report.series.keys()).filter((one) => !left.has(one))]) {
-      colour.add(new Option(name.replaceAll("_", " "), name));
-    }
     colour.addEventListener("change", () => {
       map.colourBy(colour.value);
       map.draw();
       legend();
     });
-    const isThere = { plume: report.hasPlume, bottom: report.bottom !== null, truth: report.series.has("true_north"), detections: report.detection !== null && report.series.has("chemical"), reports: report.reports.some((one) => one.north !== null), grid: true };
-    for (const name of Object.keys(map.shown)) {
-      if (!isThere[name]) continue;
-      const change = (isOn) => {
-        map.shown[name] = isOn;
-        map.draw();
-      };
-      document.getElementById("layers").append(choice(name, map.shown[name], change));
-    }
-    KINDS.forEach(([name], kind) => {
-      if (!report.happenings.some((one) => kindOf(one.verb) === kind)) return;
-      const change = (isOn) => {
-        chosen[kind] = isOn;
-        list();
-      };
-      document.getElementById("filters").append(choice(name, chosen[kind], change));
+    document.getElementById("report-part").addEventListener("click", (event) => {
+      const row = event.target.closest("tr[data-t]");
+      if (row !== null) report.go(Number(row.dataset.t));
     });
-    for (const row of document.querySelectorAll("#reports tr[data-t]")) row.addEventListener("click", () => report.go(Number(row.dataset.t)));
     lines.addEventListener("keydown", (event) => {
       const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
       const next = rows[(marked ?? -1) + step];
@@ -245,9 +258,14 @@
       report.go(later.one.t);
       explain(later.one);
     });
-    drawDiagrams();
-    list();
-    legend();
+    let [diagramsOf, linesOf] = [null, null];
+    report.whenLoaded(() => {
+      offer();
+      if (diagramsOf !== report.diagrams) drawDiagrams();
+      if (linesOf !== report.happenings) list();
+      [diagramsOf, linesOf] = [report.diagrams, report.happenings];
+      legend();
+    });
     report.whenMoved((t) => {
       markDiagrams(t);
       const isNow = explained !== undefined && Math.abs(explained.t - t) < 0.05;

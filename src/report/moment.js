@@ -9,6 +9,8 @@
 
   report.t = 0;
   report.playing = false;
+  // Whether a run that goes on is shown at its newest moment, whatever that is.
+  report.following = false;
   report.whenMoved = (listener) => listeners.push(listener);
 
   // The address is changed a little later: browsers refuse to have it changed many times a second.
@@ -16,8 +18,8 @@
   function keepAddress() {
     addressTimer ??= setTimeout(() => {
       addressTimer = null;
-      const hash = `#t=${Number(report.t.toFixed(1))}`;
-      if (location.hash !== hash) history.replaceState(null, "", hash);
+      const hash = report.following ? "" : `#t=${Number(report.t.toFixed(1))}`;
+      if (location.hash !== hash) history.replaceState(null, "", hash === "" ? location.pathname : hash);
     }, 250);
   }
 
@@ -41,6 +43,8 @@
   let pending = false;
   report.go = function (t) {
     report.t = Math.min(Math.max(Number.isFinite(t) ? t : 0, 0), report.end);
+    // Who goes to the end of a run that goes on stays there.
+    report.following = report.isLive === true && report.t >= report.end;
     keepAddress();
     if (pending) return;
     pending = true;
@@ -109,7 +113,7 @@
   });
 
   report.startMoment = function () {
-    slider.max = report.end;
+    report.whenLoaded(() => (slider.max = report.end));
     // The whole run takes about a minute to be played.
     const speeds = [1, 5, 10, 30, 60, 120, 300, 600];
     const usual = speeds.find((speed) => report.end / speed <= 75) ?? 600;
@@ -122,7 +126,8 @@
       const t = ofAddress();
       if (t !== null && Math.abs(t - report.t) > 0.05) report.go(t);
     });
-    report.t = Math.min(ofAddress() ?? 0, report.end);
+    report.asked = ofAddress();
+    report.t = Math.min(report.asked ?? 0, report.end);
     show();
   };
 }

@@ -3,12 +3,12 @@
 
 use crate::doc::escaped;
 use albacore_session::RunReport;
-use albacore_session::report_data::{Head, ReportedRow};
+use albacore_session::report_data::{Head, ReportData, ReportedRow};
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("report.css");
 /// The scripts in the order in which they are run: each is a block of its own, and they share the one object `report`.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("data.js"),
     include_str!("moment.js"),
     include_str!("map.js"),
@@ -16,8 +16,11 @@ const SCRIPTS: [&str; 8] = [
     include_str!("marks.js"),
     include_str!("timelines.js"),
     include_str!("lists.js"),
-    include_str!("start.js"),
 ];
+/// ... of a run that goes on one more ...
+const LIVE: &str = include_str!("live.js");
+/// ... and the last of all.
+const START: &str = include_str!("start.js");
 
 /// Lines of the trace that are listed for who has no scripts.
 const LISTED_MAX: usize = 2000;
@@ -26,24 +29,45 @@ const LISTED: [&str; 10] = ["switch", "resume", "stale", "fresh", "hold", "abort
 
 /// The page as a file holds it.
 pub fn of(run: &RunReport) -> serde_json::Result<String> {
-    let data = embedded(&serde_json::to_string(&run.data)?);
-    let script: String = SCRIPTS.concat();
-    let mut page = String::with_capacity(TEMPLATE.len() + data.len() + script.len() + run.picture.len());
+    let script = SCRIPTS.concat() + START;
+    filled(&run.data, &Parts { connect: "", plain: &plain(run), script: &script })
+}
+
+/// The page of a run that goes on, from which it asks for more.
+pub fn live(beginning: &ReportData) -> serde_json::Result<String> {
+    let plain = "<p>Scripts are off, and this page of a run that goes on is made by them. After the run `albacore report` makes one that \
+                 shows a picture without.</p>\n";
+    let script = SCRIPTS.concat() + LIVE + START;
+    filled(beginning, &Parts { connect: "; connect-src 'self'", plain, script: &script })
+}
+
+/// What of a page is other while the run goes on.
+struct Parts<'a> {
+    /// What the page may ask for.
+    connect: &'a str,
+    /// What there is without scripts.
+    plain: &'a str,
+    script: &'a str,
+}
+
+fn filled(run: &ReportData, parts: &Parts) -> serde_json::Result<String> {
+    let data = embedded(&serde_json::to_string(run)?);
+    let mut page = String::with_capacity(TEMPLATE.len() + data.len() + parts.script.len() + parts.plain.len());
     // In one pass: what is filled in is not looked through for more to fill in.
     let mut rest = TEMPLATE;
     while let Some((before, after)) = rest.split_once("{{") {
         let (name, after) = after.split_once("}}").unwrap_or((after, ""));
         page.push_str(before);
         match name {
-            "title" => page.push_str(&escaped(&title(&run.data.head))),
+            "title" => page.push_str(&escaped(&title(&run.head))),
             "style" => page.push_str(STYLE),
-            "warning" => page.push_str(&warning(&run.data.head)),
-            "head" => page.push_str(&head(&run.data.head)),
-            "reports" => page.push_str(&reports(run)),
-            "picture" => page.push_str(&run.picture),
-            "listed" => page.push_str(&listed(run)),
+            "warning" => page.push_str(&warning(&run.head)),
+            "head" => page.push_str(&head(&run.head)),
+            "reports" => page.push_str(&reports(&run.reports, run.more_reports)),
+            "connect" => page.push_str(parts.connect),
+            "plain" => page.push_str(parts.plain),
             "data" => page.push_str(&data),
-            "script" => page.push_str(&script),
+            "script" => page.push_str(parts.script),
             _ => {}
         }
         rest = after;
@@ -61,7 +85,8 @@ fn embedded(json: &str) -> String {
         .replace('\u{2029}', "\\u2029")
 }
 
-fn title(head: &Head) -> String {
+/// The page in one line.
+pub fn title(head: &Head) -> String {
     let world =
         if head.is_link { "on a link".to_string() } else { format!("in {}, seed {}", head.scenario, head.seed) };
     format!("{} {world}: {}", head.mission, head.outcome)
@@ -75,7 +100,7 @@ fn warning(head: &Head) -> String {
 }
 
 /// What was run and how it ended, as a list of terms.
-fn head(head: &Head) -> String {
+pub fn head(head: &Head) -> String {
     let reason = if head.reason.is_empty() { String::new() } else { format!(": {}", head.reason) };
     let world = if head.is_link { "link" } else { "scenario" };
     let mut rows = vec![
@@ -95,8 +120,12 @@ fn head(head: &Head) -> String {
     }
     rows.extend(head.origin.clone().map(|origin| ("origin (0, 0)", origin)));
     rows.extend(head.first_tick.clone().map(|moment| ("clock at 0", moment)));
-    let digest = if head.digest.is_empty() { "none: its end is not known" } else { &head.digest };
-    rows.push(("digest", digest.to_string()));
+    match head.digest.as_str() {
+        // It comes with the end.
+        "" if head.cut.is_none() => {}
+        "" => rows.push(("digest", "none: its end is not known".to_string())),
+        digest => rows.push(("digest", digest.to_string())),
+    }
     let row = |(term, text): &(&str, String)| format!("<div><dt>{term}</dt><dd>{}</dd></div>\n", escaped(text));
     rows.iter().map(row).collect()
 }
@@ -113,8 +142,7 @@ fn clock(time_s: f64) -> String {
 }
 
 /// The table of what was reported.
-fn reports(run: &RunReport) -> String {
-    let rows = &run.data.reports;
+pub fn reports(rows: &[ReportedRow], more: u64) -> String {
     if rows.is_empty() {
         return "<p>Nothing was reported.</p>\n".to_string();
     }
@@ -132,7 +160,7 @@ fn reports(run: &RunReport) -> String {
     ];
     let head: String = heads.iter().filter(|(is, _)| *is).map(|(_, text)| format!("<th>{text}</th>")).collect();
     let body: String = rows.iter().map(|row| reported(row, has_place, has_globe, has_error)).collect();
-    let more = match run.data.more_reports {
+    let more = match more {
         0 => String::new(),
         more => format!("<p>{more} more reports are in the trace.</p>\n"),
     };
@@ -163,6 +191,18 @@ fn reported(row: &ReportedRow, has_place: bool, has_globe: bool, has_error: bool
     format!("<tr data-t=\"{:.1}\">{}</tr>\n", row.t, cells.iter().map(cell).collect::<String>())
 }
 
+/// What there is for who has no scripts.
+fn plain(run: &RunReport) -> String {
+    format!(
+        "<section>\n<p>Scripts are off: this is the picture of the whole run, and what it did. With scripts the page has a map in time, \
+         timelines and diagrams.</p>\n<figure>\n{}</figure>\n<h2>What happened</h2>\n<div class=\"wide\"><table>\n\
+         <thead><tr><th>time, s</th><th>what</th><th>which, where and why</th></tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n\
+         </section>\n",
+        run.picture,
+        listed(run)
+    )
+}
+
 /// The lines of the trace that tell most, for who has no scripts.
 fn listed(run: &RunReport) -> String {
     let told = run.data.happenings.iter().filter(|line| LISTED.contains(&line.verb.as_str()));
@@ -179,7 +219,7 @@ fn listed(run: &RunReport) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{SCRIPTS, STYLE, TEMPLATE, clock, embedded};
+    use super::{LIVE, SCRIPTS, START, STYLE, TEMPLATE, clock, embedded};
 
     #[test]
     fn no_data_ends_its_element() {
@@ -192,7 +232,7 @@ mod tests {
     /// What is ours does not end the element that it stands in, and has nothing that is filled in.
     #[test]
     fn our_own_parts_fit_into_the_page() {
-        for part in SCRIPTS.iter().chain([&STYLE]) {
+        for part in SCRIPTS.iter().chain([&LIVE, &START, &STYLE]) {
             assert!(!part.contains("</") && !part.contains("{{") && !part.contains("<!--"));
         }
         assert_eq!(TEMPLATE.matches("{{").count(), 10);

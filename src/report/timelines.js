@@ -20,9 +20,9 @@
   // The panels: each is there when one of its lines is. `dash` lines are what was asked for or is true.
   const line = (name, label, colour, more) => ({ name, label, colour, ...more });
   const PANELS = [
-    { title: "chemical", unit: "%", height: 78, from: 0, least: 5, lines: [line("chemical", "greatest of a second", "brown", { least: "chemical_least" })], mark: report.detection },
+    { title: "chemical", unit: "%", height: 78, from: 0, least: 5, lines: [line("chemical", "greatest of a second", "brown", { least: "chemical_least" })], isMarked: true },
     {
-      title: "depth, and bottom", unit: "m", height: 104, down: true, from: 0, floor: has("true_bottom") ? "true_bottom" : "bottom",
+      title: "depth, and bottom", unit: "m", height: 104, down: true, from: 0, floors: ["true_bottom", "bottom"],
       lines: [
         line("depth", "depth", "blue"), line("asked_depth", "asked", "orange", { dash: [5, 3] }), line("bottom", "depth + altitude", "brown"),
         line("true_depth", "true", "grey", { dash: [2, 2] }),
@@ -50,10 +50,9 @@
     { title: "salinity", unit: "", height: 58, lines: [line("salinity", "salinity", "green")] },
     { title: "battery", unit: "%", height: 52, from: 0, to: 100, lines: [line("battery", "battery", "green")] },
   ];
-  const panels = PANELS.filter((panel) => has(panel.when ?? panel.lines[0].name) || (panel.when === undefined && panel.lines.some(({ name }) => has(name))));
-  for (const panel of panels) panel.lines = panel.lines.filter(({ name }) => has(name));
-
-  const gantt = { title: "active", height: ROW * Math.max(1, report.levels.length) };
+  const isShown = (panel) => has(panel.when ?? panel.lines[0].name) || (panel.when === undefined && panel.lines.some(({ name }) => has(name)));
+  const gantt = { title: "active", height: ROW };
+  let panels = [];
   let width = 1;
   const x = (t) => LEFT + ((t - shown.from) / (shown.to - shown.from)) * (width - LEFT - RIGHT);
   const timeAt = (px) => shown.from + ((px - LEFT) / (width - LEFT - RIGHT)) * (shown.to - shown.from);
@@ -70,7 +69,7 @@
     }
     return y + AXIS;
   }
-  const height = laidOut();
+  let height = 1;
 
   function rangeOf(panel) {
     if (panel.range !== undefined) return panel.range;
@@ -88,7 +87,20 @@
     const room = 0.06 * (most - least);
     return [panel.from === undefined ? least - room : least, panel.to === undefined ? most + room : most];
   }
-  for (const panel of panels) panel.shownRange = rangeOf(panel);
+  // The panels of what there is, and of a run that goes on the time up to now, if all of it was shown before.
+  let endBefore = report.end;
+  report.whenLoaded(() => {
+    const part = (panel) => ({
+      ...panel, lines: panel.lines.filter(({ name }) => has(name)), floor: panel.floors?.find(has), mark: panel.isMarked ? report.detection : undefined,
+    });
+    panels = PANELS.filter(isShown).map(part);
+    for (const panel of panels) panel.shownRange = rangeOf(panel);
+    gantt.height = ROW * Math.max(1, report.levels.length);
+    height = laidOut();
+    still.style.height = moving.style.height = `${height}px`;
+    if (shown.from === 0 && shown.to === endBefore) shown.to = report.end;
+    endBefore = report.end;
+  });
   const yOf = (panel, value) => {
     const [least, most] = panel.shownRange;
     const share = (value - least) / (most - least);
@@ -338,7 +350,6 @@
   };
 
   report.startTimelines = function () {
-    still.style.height = moving.style.height = `${height}px`;
     let held = false;
     const go = (event) => report.go(timeAt(event.clientX - moving.getBoundingClientRect().left));
     moving.addEventListener("pointerdown", (event) => {

@@ -10,6 +10,7 @@ pub(crate) mod journal;
 pub(crate) mod notices;
 pub(crate) mod recorded;
 pub(crate) mod results;
+pub(crate) mod status;
 pub(crate) mod trace;
 pub(crate) mod track;
 
@@ -22,6 +23,7 @@ use albacore_vehicle::{Measurement, Snapshot};
 use notices::Notices;
 use recorded::Recorded;
 use results::Results;
+use status::Status;
 use trace::Trace;
 use track::Track;
 
@@ -99,6 +101,7 @@ pub(crate) struct InMemory {
     pub track: Track,
     pub recorded: Recorded,
     pub notices: Notices,
+    pub status: Status,
 }
 
 impl InMemory {
@@ -110,6 +113,7 @@ impl InMemory {
             track: Track::new(plan, measurements),
             recorded: Recorded::new(plan, measurements),
             notices: Notices::default(),
+            status: Status::new(measurements),
         }
     }
 
@@ -128,6 +132,7 @@ impl Recorder for InMemory {
         self.track.take(record);
         self.recorded.take(record);
         self.notices.take(record);
+        self.status.take(record);
     }
 
     fn miss(&mut self, steps: u64, tick: u64) {

@@ -3,6 +3,7 @@
 pub mod data;
 mod diagrams;
 mod happenings;
+pub(crate) mod live;
 mod recorder;
 mod series;
 mod spans;
@@ -53,15 +54,21 @@ pub fn report(
     let is_link = matches!(header.world, World::Link);
     let mut folded = fold.finish(summary.ticks);
     happenings::add_tried(&mut folded.happenings, &decisions);
-    let extent = world::extent(memory, &folded);
+    let results = &memory.results;
+    let extent = world::extent(results, folded.reach);
     let plume = if is_link { None } else { world::plume(plan, header.seed, summary.ticks, extent) };
     let at_end = plume.as_ref().map(|plume| plume.at_end.clone()).unwrap_or_default();
     let picture = picture::of_run(memory, &WorldAtEnd { in_simulation: past.in_simulation(), plume: at_end });
     let data = ReportData {
-        head: head(&summary, header, is_link, &cut, first_tick),
+        head: head(&summary, header.seed, &header.set, is_link, &cut, first_tick),
         reports: summary.reports.iter().take(REPORTS_MAX).map(ReportedRow::new).collect(),
         more_reports: summary.reports_beyond(REPORTS_MAX),
-        world: world::known(memory, extent, past.in_simulation()),
+        world: world::known(
+            results,
+            extent,
+            past.in_simulation(),
+            world::bottom(results, extent, past.in_simulation()),
+        ),
         plume: plume.map(|plume| plume.data),
         detection: folded.detection,
         every_s: folded.every_s,
@@ -69,7 +76,7 @@ pub fn report(
         colours: folded.colours,
         activities: folded.activities,
         spans: folded.spans,
-        diagrams: diagrams::of_run(script, plan, &folded.tables),
+        diagrams: diagrams::of_run(&script.diagrams().collect::<Vec<_>>(), &plan.program, &folded.tables),
         happenings: folded.happenings,
         happenings_left_out: folded.left_out,
     };
@@ -78,7 +85,8 @@ pub fn report(
 
 fn head(
     summary: &Summary,
-    header: &albacore_trace::journal::JournalHeader,
+    seed: u64,
+    set: &[String],
     is_link: bool,
     cut: &Option<String>,
     first_tick: Option<String>,
@@ -87,8 +95,8 @@ fn head(
         mission: one_line(&summary.mission),
         scenario: one_line(&summary.scenario),
         is_link,
-        seed: header.seed,
-        set: header.set.iter().map(|set| one_line(set)).collect(),
+        seed,
+        set: set.iter().map(|set| one_line(set)).collect(),
         outcome: match cut {
             Some(_) if summary.digest.is_empty() => "end not known".to_string(),
             _ => summary.outcome.replace('_', " "),

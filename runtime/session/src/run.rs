@@ -4,21 +4,26 @@
 
 mod driver;
 mod live;
+mod page;
 mod queue;
 
 use crate::plan::{Plan, PlanError};
 use crate::recorders::journal::Journal;
 use crate::recorders::{InMemory, RUN_FILES, Recorder, RunFile, WorldAtEnd};
+use crate::report::live::LiveReport;
 use crate::run_vehicle::RunVehicle;
 use crate::summary::Summary;
 use albacore_geometry::Point;
+use albacore_lang::Script;
 use albacore_machine::Outcome;
 use albacore_program::PROGRAM_VERSION;
 use albacore_trace::journal::JournalHeader;
 use albacore_trace::{BehaviorTrace, TickRecord};
 use albacore_vehicle::{TICK_S, Vehicle, VehicleError};
+use page::Kept;
 use std::io;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) use driver::Driver;
@@ -29,6 +34,8 @@ pub struct Run {
     driver: Driver,
     memory: InMemory,
     journal: Journal,
+    /// The way to the thread that keeps a page, if one is wanted.
+    page: Option<Kept>,
     record: TickRecord,
 }
 
@@ -55,7 +62,7 @@ impl Run {
 
     fn with(plan: &Plan, seed: u64, driver: Driver, start: Option<Point>) -> Self {
         let memory = InMemory::new(plan, seed, driver.vehicle().measurements(), start);
-        Run { driver, memory, journal: Journal::default(), record: TickRecord::default() }
+        Run { driver, memory, journal: Journal::default(), page: None, record: TickRecord::default() }
     }
 
     /// Keeps a journal from here on: one write call a tick, as it ends. `set` are the texts of the parameters changed for
@@ -63,6 +70,15 @@ impl Run {
     pub fn with_journal(&mut self, sink: Box<dyn io::Write + Send>, set: &[String]) {
         let header = self.header(set);
         self.journal.begin(sink, &header);
+    }
+
+    /// Keeps a report of it from here on, on a thread of its own, for who wants to look at it as it goes. `set` are the texts of the parameters
+    /// changed for this run. An error tells that there is no such thread to be had.
+    pub fn watched(&mut self, script: &Script, set: &[String]) -> io::Result<Arc<LiveReport>> {
+        let plan = self.memory.results.plan.clone();
+        let report = Arc::new(LiveReport::new(script, &plan, &self.header(set)));
+        self.page = Some(page::begin(Arc::clone(&report))?);
+        Ok(report)
     }
 
     /// Lets the picture show nothing but a time of the run, in ticks.
@@ -107,6 +123,11 @@ impl Run {
         self.memory.trace.lines().under_way()
     }
 
+    /// How it stands, on one line.
+    pub fn status_line(&self) -> String {
+        self.memory.status.line(&self.under_way())
+    }
+
     /// Where the vehicle truly is; on a link, where it believes to be.
     pub fn true_position(&self) -> Point {
         let truth = self.driver.vehicle().truth().map(|truth| truth.position);
@@ -140,6 +161,9 @@ impl Run {
             let running = self.driver.step(&mut self.record);
             self.memory.take(&self.record);
             self.journal.take(&self.record);
+            if let Some(page) = &mut self.page {
+                page.hand_copy(&self.record);
+            }
             if !self.driver.is_ending() {
                 return running;
             }

@@ -94,6 +94,11 @@ impl Reports {
         }
     }
 
+    /// How many there were.
+    pub fn in_all(&self) -> u64 {
+        self.listed.len() as u64 + self.more
+    }
+
     /// Whether there is room for one more, of a place of the program and of so many words.
     fn admits(&mut self, site: u32, words: usize) -> bool {
         let first = self.sites.insert(site);
@@ -194,6 +199,11 @@ impl Results {
 
     /// The result; `wall_s` is measured by who ran it.
     pub fn summary(&self, wall_s: f64) -> Summary {
+        Summary { reports: self.reports.listed.clone(), ..self.brief(wall_s) }
+    }
+
+    /// The same without the reports, of which there may be many.
+    pub fn brief(&self, wall_s: f64) -> Summary {
         Summary {
             mission: self.plan.program.mission.name.clone(),
             scenario: self.plan.scenario_name.clone(),
@@ -209,7 +219,7 @@ impl Results {
             holds: self.account.holds(),
             result: self.account.finished().cloned(),
             behaviors: self.account.behaviors(),
-            reports: self.reports.listed.clone(),
+            reports: Vec::new(),
             more_reports: self.reports.more,
             recorded_rows: None,
             recorded_rows_left_out: 0,

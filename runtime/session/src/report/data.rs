@@ -2,8 +2,10 @@
 //! mission of hours fits into a few megabytes.
 
 pub use super::happenings::{Happening, Why};
+pub use super::live::Increment;
+pub use super::recorder::NewParts;
 pub use super::series::Series;
-pub use super::spans::Spans;
+pub use super::spans::{NewSpans, Spans};
 pub use super::world::{BottomCells, Extent, KnownWorld, Named, PlumeFrames};
 use crate::summary::Report;
 use albacore_program::seen::one_line;

@@ -1,19 +1,16 @@
 //! The switching tables that ran, drawn so that a page can show what is active.
 
 use super::data::RunDiagram;
-use crate::plan::Plan;
+use super::recorder::RunTable;
 use albacore_diagram::{Diagram, marked_svg};
-use albacore_lang::Script;
-use albacore_program::{ActivityId, Body};
+use albacore_program::{Body, Program};
 
 /// More tables are not drawn.
 const DIAGRAMS_MAX: usize = 20;
 
-/// The diagrams of strategies that ran: of each its activity, its index among the names, and those of its behaviors.
-pub(super) fn of_run(script: &Script, plan: &Plan, ran: &[(ActivityId, usize, Vec<Option<usize>>)]) -> Vec<RunDiagram> {
-    let known: Vec<Diagram> = script.diagrams().collect();
-    let drawn = |(id, index, behaviors): &(ActivityId, usize, Vec<Option<usize>>)| {
-        let program = &plan.program;
+/// The diagrams of strategies that ran, of all that a script knows.
+pub(super) fn of_run(known: &[Diagram], program: &Program, ran: &[RunTable]) -> Vec<RunDiagram> {
+    let drawn = |(id, index, behaviors): &RunTable| {
         let activity = program.activities.get(*id as usize)?;
         let Body::Table(table) = &activity.body else { return None };
         let name = |entry: &albacore_program::Entry| program.activities.get(entry.activity as usize).map(|of| &of.name);

@@ -99,6 +99,16 @@ impl HappeningFold {
         self.tell(before, tick, &[], &mut |_| 0);
     }
 
+    /// How many lines there are.
+    pub fn count(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// The lines after the first so many, and how many were left out in all.
+    pub fn since(&self, known: usize) -> (Vec<Happening>, u64) {
+        (self.lines.iter().skip(known).cloned().collect(), self.left_out)
+    }
+
     pub fn finish(self) -> (Vec<Happening>, u64) {
         (self.lines, self.left_out)
     }

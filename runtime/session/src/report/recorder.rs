@@ -2,18 +2,20 @@
 
 use super::data::ActivityName;
 use super::happenings::{Happening, HappeningFold};
-use super::series::{Column, Keep, SLOTS_END, SLOTS_MAX, Series, packed};
-use super::spans::{SpanFold, Spans};
+use super::series::{Column, Keep, SECONDS_END, SLOTS_MAX, Series, packed};
+use super::spans::{NewSpans, SpanFold, Spans};
+use super::world::Extent;
 use crate::plan::Plan;
 use crate::recorders::Recorder;
 use crate::recorders::track::DETECTION;
-use albacore_geometry::{Heading, Point};
+use albacore_geometry::Heading;
 use albacore_program::seen::one_line;
 use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::journal::JournalHeader;
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::measurements::{self, CHEMICAL};
 use albacore_vehicle::{Quantity, Vertical};
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -71,7 +73,11 @@ pub(super) struct Fold {
     happenings: HappeningFold,
     names: Names,
     colours: Vec<Option<usize>>,
-    places: Vec<Point>,
+    /// Seconds between two numbers of a series: twice as many whenever there are too many.
+    every_s: u64,
+    /// The last second that was taken in.
+    last_second: Option<u64>,
+    reach: Option<Extent>,
     in_tables: BTreeSet<ActivityId>,
 }
 
@@ -101,10 +107,43 @@ pub(super) struct Folded {
     pub happenings: Vec<Happening>,
     pub left_out: u64,
     pub detection: Option<f64>,
-    /// Where the vehicle was believed to be.
-    pub places: Vec<Point>,
+    /// Where the vehicle was.
+    pub reach: Option<Extent>,
     /// The strategies with tables that ran, with the indices of their names and of their behaviors'.
-    pub tables: Vec<(ActivityId, usize, Vec<Option<usize>>)>,
+    pub tables: Vec<RunTable>,
+}
+
+/// A strategy with a table, the index of its name, and those of its behaviors'.
+pub(super) type RunTable = (ActivityId, usize, Vec<Option<usize>>);
+
+/// How far everything has come: what is known of it to somebody.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counts {
+    /// Seconds between two numbers of a series.
+    pub every_s: u64,
+    /// The last slot that has numbers.
+    pub slot: usize,
+    pub names: usize,
+    pub spans: usize,
+    pub closed: usize,
+    pub lines: usize,
+}
+
+/// What has come since then.
+#[derive(Clone, Debug, Serialize)]
+pub struct NewParts {
+    /// What was sensed, commanded and true, from a slot on.
+    pub series: Vec<Series>,
+    /// What the track is coloured by, from that slot on, packed.
+    pub colours: Vec<Option<i64>>,
+    /// Names of what was active.
+    pub activities: Vec<ActivityName>,
+    /// When each was active.
+    pub spans: NewSpans,
+    /// Lines of the trace.
+    pub happenings: Vec<Happening>,
+    /// How many lines there were in all beside those that are kept.
+    pub happenings_left_out: u64,
 }
 
 impl Fold {
@@ -125,54 +164,117 @@ impl Fold {
             happenings: HappeningFold::new(plan, header.seed),
             names: Names::default(),
             colours: Vec::new(),
-            places: Vec::new(),
+            every_s: 1,
+            last_second: None,
+            reach: None,
         }
     }
 
-    pub fn finish(mut self, ticks: u64) -> Folded {
+    pub fn finish(self, ticks: u64) -> Folded {
+        let (activities, tables) = (self.activities(0), self.tables());
         let mut columns = self.known;
         columns.extend(self.measured.into_iter().flatten().flat_map(|shown| shown.columns));
         columns.retain(Column::is_there);
-        let mut every_s = 1;
-        while columns.iter().any(|column| column.len() > SLOTS_MAX) {
-            columns.iter_mut().for_each(Column::halve);
-            self.colours = self.colours.iter().copied().step_by(2).collect();
-            every_s *= 2;
+        let (happenings, left_out) = self.happenings.finish();
+        Folded {
+            every_s: self.every_s,
+            series: columns.into_iter().map(Column::finish).collect(),
+            colours: packed(self.colours.iter().map(|colour| colour.map(|colour| colour as i64))),
+            activities,
+            spans: self.spans.finish(ticks),
+            happenings,
+            left_out,
+            detection: self.detection,
+            reach: self.reach,
+            tables,
         }
-        let tables = self.names.ids.clone().into_iter().enumerate().filter_map(|(index, id)| {
-            let Body::Table(table) = &self.program.activities.get(id as usize)?.body else { return None };
-            let place = |entry: &albacore_program::Entry| self.names.places.get(&entry.activity).copied();
-            Some((id, index, table.behaviors.iter().map(place).collect()))
-        });
-        let tables = tables.collect();
+    }
+
+    /// The activities that have got a name after the first so many.
+    pub fn activities(&self, known: usize) -> Vec<ActivityName> {
         let activity = |id: &ActivityId| self.program.activities.get(*id as usize);
         let name = |id: &ActivityId| ActivityName {
             name: one_line(activity(id).map_or("?", |of| &of.name)),
             place: one_line(activity(id).map_or("", |of| &of.place)),
         };
-        let (happenings, left_out) = self.happenings.finish();
-        Folded {
-            every_s,
-            series: columns.into_iter().map(Column::finish).collect(),
-            colours: packed(self.colours.iter().map(|colour| colour.map(|colour| colour as i64))),
-            activities: self.names.ids.iter().map(name).collect(),
-            spans: self.spans.finish(ticks),
-            happenings,
-            left_out,
-            detection: self.detection,
-            places: self.places,
-            tables,
+        self.names.ids.iter().skip(known).map(name).collect()
+    }
+
+    /// The strategies with tables that have run.
+    pub fn tables(&self) -> Vec<RunTable> {
+        let table = |(index, id): (usize, &ActivityId)| {
+            let Body::Table(table) = &self.program.activities.get(*id as usize)?.body else { return None };
+            let place = |entry: &albacore_program::Entry| self.names.places.get(&entry.activity).copied();
+            Some((*id, index, table.behaviors.iter().map(place).collect()))
+        };
+        self.names.ids.iter().enumerate().filter_map(table).collect()
+    }
+
+    /// Where the vehicle was so far.
+    pub fn reach(&self) -> Option<Extent> {
+        self.reach
+    }
+
+    /// How far everything has come.
+    pub fn counts(&self) -> Counts {
+        let (spans, closed) = self.spans.counts();
+        Counts {
+            every_s: self.every_s,
+            slot: self.last_second.map_or(0, |second| second.div_ceil(self.every_s) as usize),
+            names: self.names.ids.len(),
+            spans,
+            closed,
+            lines: self.happenings.count(),
         }
+    }
+
+    /// What has come since that. The last slot may have become other, and is told again.
+    pub fn since(&self, known: &Counts) -> NewParts {
+        let measured = self.measured.iter().flatten().flat_map(|shown| &shown.columns);
+        let columns = self.known.iter().chain(measured).filter(|column| column.is_there_since(known.slot));
+        let colours = self.colours.iter().skip(known.slot);
+        let (happenings, left_out) = self.happenings.since(known.lines);
+        NewParts {
+            series: columns.map(|column| column.since(known.slot)).collect(),
+            colours: packed(colours.map(|colour| colour.map(|colour| colour as i64))),
+            activities: self.activities(known.names),
+            spans: self.spans.since(known.spans, known.closed),
+            happenings,
+            happenings_left_out: left_out,
+        }
+    }
+
+    /// From which share of full scale on chemical is detected.
+    pub fn detection(&self) -> Option<f64> {
+        self.detection
+    }
+
+    /// Half as many numbers of everything.
+    fn halve(&mut self) {
+        let measured = self.measured.iter_mut().flatten().flat_map(|shown| &mut shown.columns);
+        self.known.iter_mut().chain(measured).for_each(Column::halve);
+        // As of the series: the first stands for 0 alone, and of two seconds the later one.
+        let (first, rest) = self.colours.split_at(self.colours.len().min(1));
+        let later = rest.chunks(2).filter_map(|pair| pair.last());
+        self.colours = first.iter().chain(later).copied().collect();
+        self.every_s *= 2;
     }
 
     /// What was sensed, commanded and true in a tick.
     fn measure(&mut self, record: &TickRecord) {
         // A second is up to its last tick: what a page shows at 7 s is of 6.1 s to 7.0 s.
         let second = record.tick.div_ceil(TICKS);
+        if second >= SECONDS_END {
+            return;
+        }
+        while second.div_ceil(self.every_s) as usize >= SLOTS_MAX {
+            self.halve();
+        }
+        let slot = second.div_ceil(self.every_s) as usize;
         let known = &mut self.known;
         let mut set = |known_as: Known, x: f64| {
             if let Some(column) = known.get_mut(known_as as usize) {
-                column.set(second, x);
+                column.set(slot, x);
             }
         };
         if let Some(at) = record.believed {
@@ -203,24 +305,23 @@ impl Fold {
                 Quantity::Flow => [sample.reading[0], sample.reading[1]],
                 _ => [sample.reading[0]; 2],
             };
-            shown.columns.iter_mut().zip(numbers).for_each(|(column, x)| column.set(second, x));
+            shown.columns.iter_mut().zip(numbers).for_each(|(column, x)| column.set(slot, x));
         }
-        self.colour(second, record);
+        self.colour(slot, record);
+        if self.last_second.is_none_or(|last| second > last) {
+            self.last_second = Some(second);
+            self.reach = record.here().and_then(Extent::at_point).map_or(self.reach, |at| Some(at.with(self.reach)));
+        }
     }
 
     /// What the track is coloured by: the innermost behavior of a table, else the outermost activity inside the mission.
-    fn colour(&mut self, second: u64, record: &TickRecord) {
-        let slot = second as usize;
-        if slot >= SLOTS_END {
-            return;
-        }
+    fn colour(&mut self, slot: usize, record: &TickRecord) {
         let active = &record.active;
         let in_table = active.iter().rev().find(|id| self.in_tables.contains(id));
         let shown = in_table.or(active.get(1)).or(active.first()).copied();
         let shown = shown.map(|id| self.names.of(id));
         if self.colours.len() <= slot {
             self.colours.resize(slot + 1, None);
-            self.places.extend(record.here());
         }
         if let Some(colour) = self.colours.get_mut(slot) {
             *colour = shown;

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 /// More numbers than these are not kept of a series: neighbours become one.
 pub(super) const SLOTS_MAX: usize = 20_000;
-/// No run is longer: what a journal says beyond is not shown.
-pub(super) const SLOTS_END: usize = 2_000_000;
+/// Seconds: no run is longer, and what a journal says beyond is not shown.
+pub(super) const SECONDS_END: u64 = 2_000_000;
 
 /// What is kept of several numbers of one second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,10 +47,9 @@ impl Column {
         Column { keep, ..self }
     }
 
-    /// Takes in a number at a second.
-    pub fn set(&mut self, second: u64, x: f64) {
-        let slot = second as usize;
-        if !x.is_finite() || slot >= SLOTS_END {
+    /// Takes in a number at a slot.
+    pub fn set(&mut self, slot: usize, x: f64) {
+        if !x.is_finite() || slot >= SLOTS_MAX {
             return;
         }
         if self.values.len() <= slot {
@@ -59,10 +58,6 @@ impl Column {
         if let Some(value) = self.values.get_mut(slot) {
             *value = joined(self.keep, *value, x);
         }
-    }
-
-    pub fn len(&self) -> usize {
-        self.values.len()
     }
 
     /// Whether there is a number in it.
@@ -84,10 +79,20 @@ impl Column {
 
     /// The series as a page has it.
     pub fn finish(self) -> Series {
+        self.since(0)
+    }
+
+    /// Whether there is a number at a slot or after it.
+    pub fn is_there_since(&self, slot: usize) -> bool {
+        self.values.len() > slot
+    }
+
+    /// What of it stands at a slot and after it.
+    pub fn since(&self, slot: usize) -> Series {
         let scale = [1.0, 10.0, 100.0, 1e3, 1e4].get(usize::from(self.decimals)).copied().unwrap_or(1.0);
         let whole = |x: &f64| (!x.is_nan()).then(|| (x * scale).round() as i64);
-        let values = packed(self.values.iter().map(whole));
-        Series { name: self.name, unit: self.unit, decimals: self.decimals, values }
+        let values = packed(self.values.iter().skip(slot).map(whole));
+        Series { name: self.name.clone(), unit: self.unit, decimals: self.decimals, values }
     }
 }
 

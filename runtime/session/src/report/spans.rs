@@ -34,6 +34,21 @@ pub(super) struct SpanFold {
     spans: Spans,
     open: Vec<Open>,
     last_from: u64,
+    /// The places of those that have ended, in the order of their ends.
+    closed: Vec<usize>,
+}
+
+/// What has come to the stretches since a moment.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct NewSpans {
+    /// Of each new stretch the activity: an index into the names.
+    pub activity: Vec<usize>,
+    /// How deep it is nested.
+    pub level: Vec<usize>,
+    /// Its first tick.
+    pub from: Vec<u64>,
+    /// Stretches that have ended: each its place among all, and how many ticks it lasted.
+    pub closed: Vec<(usize, u64)>,
 }
 
 impl SpanFold {
@@ -64,6 +79,27 @@ impl SpanFold {
         self.close(0, tick);
     }
 
+    /// How many stretches there are, and how many of them have ended.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.spans.from.len(), self.closed.len())
+    }
+
+    /// What has come since there were so many stretches, and so many of them had ended.
+    pub fn since(&self, known: usize, closed: usize) -> NewSpans {
+        let Spans { activity, level, from, ticks } = &self.spans;
+        let firsts = from.iter().scan(0, |tick, step| {
+            *tick += step;
+            Some(*tick)
+        });
+        let lasted = |place: &usize| Some((*place, *ticks.get(*place)?));
+        NewSpans {
+            activity: activity.iter().skip(known).copied().collect(),
+            level: level.iter().skip(known).copied().collect(),
+            from: firsts.skip(known).collect(),
+            closed: self.closed.iter().skip(closed).filter_map(lasted).collect(),
+        }
+    }
+
     pub fn finish(mut self, tick: u64) -> Spans {
         self.close(0, tick);
         self.spans
@@ -74,6 +110,7 @@ impl SpanFold {
         for open in self.open.drain(level..) {
             if let Some(ticks) = self.spans.ticks.get_mut(open.place) {
                 *ticks = tick.saturating_sub(open.from);
+                self.closed.push(open.place);
             }
         }
     }

@@ -1,10 +1,9 @@
 //! The world of a run as its page shows it: areas, the bottom, sources, and the plume as it moved, which is simulated once more from the
 //! run's seed.
 
-use super::recorder::Folded;
 use super::series::packed;
 use crate::plan::Plan;
-use crate::recorders::InMemory;
+use crate::recorders::results::Results;
 use albacore_geometry::{Point, TangentFrame};
 use albacore_program::seen::one_line;
 use albacore_sim::World;
@@ -91,7 +90,7 @@ pub(super) struct SimulatedPlume {
 }
 
 /// A rectangle of the map, m.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Extent {
     south: f64,
     west: f64,
@@ -100,17 +99,37 @@ pub struct Extent {
 }
 
 impl Extent {
-    fn of(points: impl Iterator<Item = Point>) -> Self {
-        let none =
-            Extent { south: f64::INFINITY, west: f64::INFINITY, north: f64::NEG_INFINITY, east: f64::NEG_INFINITY };
-        let around = points.filter(|p| p.north.abs() < 1e7 && p.east.abs() < 1e7).fold(none, |of, p| Extent {
-            south: of.south.min(p.north),
-            west: of.west.min(p.east),
-            north: of.north.max(p.north),
-            east: of.east.max(p.east),
-        });
+    fn of(points: impl Iterator<Item = Point>, reach: Option<Extent>) -> Self {
+        let around = points.filter_map(Extent::at_point).fold(reach, |of, p| Some(p.with(of)));
         // Of a vehicle that was nowhere there is some water about the origin.
-        if around.south > around.north { Extent::default().widened(50.0) } else { around.widened(10.0) }
+        around.map_or(Extent::default().widened(50.0), |around| around.widened(10.0))
+    }
+
+    /// A point that can be on a map.
+    pub(super) fn at_point(p: Point) -> Option<Self> {
+        let can_be = p.north.abs() < 1e7 && p.east.abs() < 1e7;
+        can_be.then_some(Extent { south: p.north, west: p.east, north: p.north, east: p.east })
+    }
+
+    /// The least that holds both.
+    pub(super) fn with(self, other: Option<Extent>) -> Self {
+        let other = other.unwrap_or(self);
+        Extent {
+            south: self.south.min(other.south),
+            west: self.west.min(other.west),
+            north: self.north.max(other.north),
+            east: self.east.max(other.east),
+        }
+    }
+
+    /// Whether all of another is in it.
+    pub(super) fn covers(&self, other: &Extent) -> bool {
+        self.with(Some(*other)) == *self
+    }
+
+    /// With room around it, in parts of its size.
+    pub(super) fn roomy(self, share: f64) -> Self {
+        self.widened(share * (self.north - self.south).max(self.east - self.west))
     }
 
     fn widened(self, by: f64) -> Self {
@@ -128,18 +147,15 @@ impl Extent {
 }
 
 /// All that must be on the map.
-pub(super) fn extent(memory: &InMemory, folded: &Folded) -> Extent {
-    let results = &memory.results;
+pub(super) fn extent(results: &Results, reach: Option<Extent>) -> Extent {
     let sources = results.plan.scenario.environment.sources.iter().map(|source| source.at);
     let reports = results.reports.listed.iter().filter_map(|report| Some(Point::new(report.north_m?, report.east_m?)));
     let areas = results.area.iter().chain(results.regions.iter().flat_map(|(_, corners)| corners)).copied();
-    let track = folded.places.iter().copied();
-    Extent::of(areas.chain(sources).chain(reports).chain(track).chain(results.start))
+    Extent::of(areas.chain(sources).chain(reports).chain(results.start), reach)
 }
 
 /// What is known of the world beside the plume.
-pub(super) fn known(memory: &InMemory, extent: Extent, is_simulated: bool) -> KnownWorld {
-    let results = &memory.results;
+pub(super) fn known(results: &Results, extent: Extent, is_simulated: bool, bottom: Option<BottomCells>) -> KnownWorld {
     let environment = &results.plan.scenario.environment;
     let name = results.plan.program.mission.areas.first().map_or("", |area| &area.name);
     let own = (!results.area.is_empty()).then(|| named(name, &results.area));
@@ -158,16 +174,22 @@ pub(super) fn known(memory: &InMemory, extent: Extent, is_simulated: bool) -> Kn
         sources: sources.collect(),
         deepest: results.deepest_sought().map(pair),
         start: results.start.map(pair),
-        bottom: (is_simulated && !environment.bottom.is_level()).then(|| {
-            let share = |i: usize| (i as f64 + 0.5) / BOTTOM_CELLS as f64;
-            let cells = (0..BOTTOM_CELLS * BOTTOM_CELLS).map(|i| (i / BOTTOM_CELLS, i % BOTTOM_CELLS));
-            let depth = |(n, e)| environment.bottom.depth_at(extent.at(share(n), share(e)));
-            let whole = |depth: f64| depth.is_finite().then(|| (depth * 10.0).round() as i64);
-            BottomCells { cells: BOTTOM_CELLS, depths: packed(cells.map(depth).map(whole)) }
-        }),
+        bottom,
         flow: (is_simulated && mean.length() > 0.0).then_some((mean.north, mean.east)),
         is_simulated,
     }
+}
+
+/// The bottom of a simulated world, where it is not level.
+pub(super) fn bottom(results: &Results, extent: Extent, is_simulated: bool) -> Option<BottomCells> {
+    let bottom = &results.plan.scenario.environment.bottom;
+    (is_simulated && !bottom.is_level()).then(|| {
+        let share = |i: usize| (i as f64 + 0.5) / BOTTOM_CELLS as f64;
+        let cells = (0..BOTTOM_CELLS * BOTTOM_CELLS).map(|i| (i / BOTTOM_CELLS, i % BOTTOM_CELLS));
+        let depth = |(n, e)| bottom.depth_at(extent.at(share(n), share(e)));
+        let whole = |depth: f64| depth.is_finite().then(|| (depth * 10.0).round() as i64);
+        BottomCells { cells: BOTTOM_CELLS, depths: packed(cells.map(depth).map(whole)) }
+    })
 }
 
 fn globe(frame: TangentFrame, extent: &Extent) -> Vec<(f64, f64)> {

@@ -1,12 +1,14 @@
 //! A run in real time: the driver on a thread of its own, which waits for the vehicle and for nothing else.
 //!
-//! Records go to two writers through queues that have bounds. The thread that calls folds those that are kept in memory;
+//! Records go to two writers, and to a page if one is looked at, through queues that have bounds. The thread that calls folds those that are kept in memory;
 //! another writes the journal, and may be held by its disk as long as that likes. What a queue does not take is left out and
 //! counted: in the journal a gap is a record of its own, with a checkpoint.
 
+use super::page::{Counted, Kept, is_empty_wait};
 use super::queue::{Feed, Intake, queue};
 use super::{Driver, Run, Running};
 use crate::recorders::journal::{Journal, Sink};
+use crate::recorders::status::Status;
 use crate::recorders::{InMemory, Recorder};
 use crate::threads::thread;
 use albacore_machine::Outcome;
@@ -44,8 +46,8 @@ pub struct LiveOptions<'a> {
 pub enum LiveUpdate<'a> {
     /// Of the vehicle, or its link.
     Notice(&'a str),
-    /// Where the run is: its tick, the active activities from outside in, and the statement that is under way.
-    Progress(u64, &'a [String]),
+    /// How the run stands, the active activities from outside in, and the statement that is under way.
+    Progress(&'a Status, &'a [String]),
     /// The journal is given up.
     JournalFailed(io::Error),
     /// Now and then: there is nothing new.
@@ -65,23 +67,23 @@ pub struct LiveRun {
 impl Run {
     /// Runs to the end in the vehicle's time, on threads of its own. An error tells of a thread that could not be begun:
     /// then nothing was sent.
-    pub fn live(self, means: LiveOptions<'_>) -> io::Result<LiveRun> {
+    pub fn live(mut self, means: LiveOptions<'_>) -> io::Result<LiveRun> {
         let LiveOptions { journal, interrupted, report, waiting_bytes } = means;
         let (feed, records) = queue(waiting_bytes);
-        let mut lines = Lines { memory: feed, unseen: 0, journal: None, gap: None };
+        let mut lines = Lines { memory: Kept::new(feed), page: self.page.take(), journal: None, gap: None };
         let mut journalist = None;
         if let Some((sink, set)) = journal {
             let (feed, waits) = queue(waiting_bytes);
             lines.journal = Some(feed);
             journalist = Some(Journalist::begin(waits, self.header(&set), sink)?);
         }
-        let Run { driver, mut memory, journal, record } = self;
+        let Run { driver, mut memory, journal, page, record } = self;
         let driving = thread("driver").spawn(move || drive(driver, &interrupted, lines))?;
         fold(&mut memory, &records, journalist.as_ref(), report);
         let driver = driving.join().map_err(|_| io::Error::other("the driver has panicked: report this"))?;
         let journal_stalled = journalist.is_some_and(|journalist| !journalist.ends(report));
         let outcome = memory.results.outcome().unwrap_or(Outcome::Failed);
-        Ok(LiveRun { run: Run { driver, memory, journal, record }, outcome, journal_stalled })
+        Ok(LiveRun { run: Run { driver, memory, journal, page, record }, outcome, journal_stalled })
     }
 }
 
@@ -108,9 +110,8 @@ fn drive(mut driver: Driver, interrupted: &AtomicBool, mut lines: Lines) -> Driv
 
 /// The ways from the driver to the writers.
 struct Lines {
-    memory: Feed<(u64, Arc<TickRecord>)>,
-    /// Steps since the last that went into memory.
-    unseen: u64,
+    memory: Kept,
+    page: Option<Kept>,
     journal: Option<Feed<Line>>,
     /// The first tick that is not in the journal, while there is no room.
     gap: Option<u64>,
@@ -124,15 +125,14 @@ enum Line {
 
 impl Lines {
     fn hand_on(&mut self, record: TickRecord, driver: &Driver) {
-        let is_wait = matches!(record.step, Step::Wait);
-        if is_wait && record.notices.is_empty() {
+        if is_empty_wait(&record) {
             return;
         }
+        let is_wait = matches!(record.step, Step::Wait);
         let (bytes, is_end, record) = (record.bytes(), record.ending().is_some(), Arc::new(record));
-        if is_end || self.memory.has_room(bytes) {
-            self.memory.put(bytes, (std::mem::take(&mut self.unseen), Arc::clone(&record)));
-        } else {
-            self.unseen += 1;
+        self.memory.hand(bytes, &record);
+        if let Some(page) = &mut self.page {
+            page.hand(bytes, &record);
         }
         // What was noticed in a gap is a part of it.
         if !is_wait || self.gap.is_none() {
@@ -162,7 +162,7 @@ impl Lines {
 /// Takes in what is kept in memory, and tells what a person should hear.
 fn fold(
     memory: &mut InMemory,
-    records: &Intake<(u64, Arc<TickRecord>)>,
+    records: &Intake<Counted>,
     journalist: Option<&Journalist>,
     report: &mut dyn FnMut(LiveUpdate<'_>),
 ) {
@@ -177,7 +177,7 @@ fn fold(
                     report(LiveUpdate::Notice(&notice));
                 }
                 if matches!(record.step, Step::Tick) && record.tick.is_multiple_of(PROGRESS_TICKS) {
-                    report(LiveUpdate::Progress(record.tick, &memory.trace.lines().under_way()));
+                    report(LiveUpdate::Progress(&memory.status, &memory.trace.lines().under_way()));
                 }
             }
             Err(RecvTimeoutError::Timeout) => report(LiveUpdate::Nothing),
