@@ -18,13 +18,13 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Stdio};
 
 /// A terminal with somebody at it, who reads nothing unless asked.
-struct Terminal {
+pub struct Terminal {
     person: PtyMaster,
     line: File,
 }
 
 impl Terminal {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let person = posix_openpt(OFlag::O_RDWR | OFlag::O_NOCTTY).unwrap();
         grantpt(&person).unwrap();
         unlockpt(&person).unwrap();
@@ -33,7 +33,7 @@ impl Terminal {
         Terminal { person, line }
     }
 
-    fn line(&self) -> Stdio {
+    pub fn line(&self) -> Stdio {
         self.line.try_clone().unwrap().into()
     }
 
@@ -42,7 +42,7 @@ impl Terminal {
     }
 
     /// Reads until this was said.
-    fn says(&mut self, what: &str) {
+    pub fn says(&mut self, what: &str) {
         let mut said = Vec::new();
         let mut part = [0; 1024];
         while !String::from_utf8_lossy(&said).contains(what) {

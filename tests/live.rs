@@ -3,6 +3,7 @@
 mod held;
 mod kept;
 mod link;
+mod live_page;
 
 #[path = "link/far_end.rs"]
 mod far_end;
