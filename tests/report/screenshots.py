@@ -178,6 +178,49 @@ def try_page(page, folder):
     return {"opens_ms": round(took), "end_s": end, "lines": page.page.evaluate("report.happenings.length")}
 
 
+def try_live(browser, binary, folder):
+    """The page of a run that goes on follows it, stays where a person goes, and says what has become of the run."""
+    faults = []
+    for name, signal, word in [("live-ended", "terminate", "has ended"), ("live-gone", "kill", "is gone")]:
+        run = subprocess.Popen([binary, "run", "missions/duck_single.alb", "--live", "--rate", "30", "--no-out"], cwd=REPOSITORY,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        try:
+            url = re.search(r"http://\S+", run.stderr.readline()).group(0)
+            page = browser.new_context(viewport={"width": 1280, "height": 800}).new_page()
+            page.on("pageerror", lambda error, name=name: faults.append(f"{name}: {error}"))
+            page.goto(url)
+
+            def eventually(what, name=name, page=page):
+                # The page's own policy lets nobody evaluate a text in it again and again.
+                for _ in range(300):
+                    if page.evaluate(what):
+                        return
+                    time.sleep(0.1)
+                faults.append(f"{name}: in vain: {what}")
+
+            eventually("report.end > 90 && report.t === report.end")
+            page.screenshot(path=folder / f"{name}-following.png", full_page=True)
+            page.evaluate("""() => {
+                const slider = document.getElementById("slider");
+                slider.value = 30;
+                slider.dispatchEvent(new Event("input"));
+            }""")
+            end = page.evaluate("report.end")
+            eventually(f"report.end > {end + 30}")
+            if page.evaluate("report.t") != 30:
+                faults.append(f"{name}: the page does not stay at the moment that was chosen")
+            page.click("#newest")
+            eventually("report.t === report.end")
+            getattr(run, signal)()
+            eventually(f"document.getElementById('live').textContent.includes('{word}')")
+            page.screenshot(path=folder / f"{name}.png", full_page=True)
+            page.context.close()
+        finally:
+            run.kill()
+            run.wait()
+    return faults
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--binary", type=pathlib.Path, default=REPOSITORY / "target" / "release" / "albacore")
@@ -215,6 +258,7 @@ def main():
         plain.shot(given.out, "plain", whole=True)
         for page in (dark, paper, plain):
             faults += page.faults
+        faults += try_live(browser, given.binary.resolve(), given.out)
         browser.close()
     print(json.dumps(told, indent=1))
     for fault in faults:

@@ -73,3 +73,51 @@ fn keep(report: &LiveReport, records: &Intake<Counted>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{Increment, LiveReport, Plan, Run, Source, load_text};
+    use albacore_geometry::Point;
+    use albacore_trace::{Step, TickRecord};
+
+    const MISSION: &str = r#"
+mission still in calm within 10 min {
+    area op = rectangle(center: point(north: 0 m, east: 0 m), along: 0 deg, length: 400 m, width: 200 m)
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 5 min { goto op.center }
+    limits { speed <= 2 m/s }
+    with depth 3 m, speed 1 m/s
+    steer 0 deg for 3 s
+}
+"#;
+
+    fn numbers(more: &Increment) -> usize {
+        more.parts.series.iter().map(|series| series.values.len()).max().unwrap_or(0)
+    }
+
+    fn take(report: &LiveReport, seconds: std::ops::Range<u64>) {
+        for second in seconds {
+            let believed = Some(Point::new(second as f64, 0.0));
+            report.take(0, &TickRecord { tick: 10 * second, step: Step::Tick, believed, ..TickRecord::default() });
+        }
+    }
+
+    /// A run of days has no more numbers than one of hours, and who has been told them is told that there are half as many.
+    #[test]
+    fn a_long_run_has_numbers_within_bounds() {
+        let script = load_text(Source { name: "still.alb".into(), text: MISSION.into() });
+        let plan = Plan::new(&script, "still.alb", None, None).unwrap();
+        let report = Run::new(&plan, 1).unwrap().watched(&script, &[]).unwrap();
+        take(&report, 0..19_999);
+        let before = report.since(None);
+        assert_eq!((before.every_s, numbers(&before)), (1, 19_999));
+        let cursor = before.cursor.parse().ok();
+        let nothing_new = report.since(cursor);
+        assert_eq!((nothing_new.anew, nothing_new.slot, numbers(&nothing_new)), (false, 19_998, 1));
+        take(&report, 19_999..100_000);
+        let after = report.since(cursor);
+        assert_eq!((after.anew, after.every_s, after.slot, numbers(&after)), (true, 8, 0, 12_501));
+        let north = &after.parts.series[0];
+        assert_eq!((north.name.as_str(), &north.values[..3]), ("north", &[Some(0), Some(80), Some(80)][..]));
+    }
+}
