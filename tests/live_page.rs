@@ -211,15 +211,8 @@ fn increments_add_up_to_the_report_of_the_finished_run() {
         assert_eq!(last["head"], report["head"]);
         assert!(last["head_html"].as_str().unwrap().contains(report["head"]["digest"].as_str().unwrap()));
         known.is_that_of(&report);
-        // Who knows nothing is told the same at once... and no more than that.
-        assert_eq!(
-            last["title"],
-            json!(format!(
-                "{} in {}, seed 1: completed",
-                report["head"]["mission"].as_str().unwrap(),
-                report["head"]["scenario"].as_str().unwrap()
-            ))
-        );
+        let [mission, scenario] = ["mission", "scenario"].map(|name| report["head"][name].as_str().unwrap());
+        assert_eq!(last["title"], json!(format!("{mission} in {scenario}, seed 1: completed")));
     }
 }
 

@@ -76,9 +76,11 @@ fn keep(report: &LiveReport, records: &Intake<Counted>) {
 
 #[cfg(test)]
 mod tests {
+    use super::{Kept, queue};
     use crate::{Increment, LiveReport, Plan, Run, Source, load_text};
     use albacore_geometry::Point;
-    use albacore_trace::{Step, TickRecord};
+    use albacore_trace::{Ending, Release, Step, TickRecord};
+    use std::time::Duration;
 
     const MISSION: &str = r#"
 mission still in calm within 10 min {
@@ -100,6 +102,29 @@ mission still in calm within 10 min {
             let believed = Some(Point::new(second as f64, 0.0));
             report.take(0, &TickRecord { tick: 10 * second, step: Step::Tick, believed, ..TickRecord::default() });
         }
+    }
+
+    /// Nobody waits for who does not take what is handed on: it is counted, and the end is handed on all the same.
+    #[test]
+    fn what_finds_no_room_is_counted() {
+        let tick = |tick| TickRecord { tick, step: Step::Tick, ..TickRecord::default() };
+        let (feed, taken) = queue(2 * tick(0).bytes());
+        let mut kept = Kept::new(feed);
+        (0..10).for_each(|at| kept.hand_copy(&tick(at)));
+        kept.hand_copy(&TickRecord { tick: 10, ..TickRecord::default() });
+        let ending = Ending {
+            outcome: crate::Outcome::Completed,
+            reason: String::new(),
+            release: Release::Done,
+            trouble: None,
+            digest: 0,
+        };
+        kept.hand_copy(&TickRecord { tick: 10, step: Step::End(ending), ..TickRecord::default() });
+        drop(kept);
+        let taken: Vec<(u64, u64)> = std::iter::from_fn(|| taken.take(Duration::ZERO).ok())
+            .map(|(unseen, record)| (unseen, record.tick))
+            .collect();
+        assert_eq!(taken, [(0, 0), (0, 1), (8, 10)]);
     }
 
     /// A run of days has no more numbers than one of hours, and who has been told them is told that there are half as many.
