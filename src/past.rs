@@ -49,7 +49,7 @@ impl PastJournal {
         };
         let told = run_folder::told(&journal.with_file_name(RECORD));
         let first_tick = told["first_tick"].as_str().and_then(Utc::read);
-        let script = told["scripts"][0]["name"].as_str().map(PathBuf::from).filter(|script| script.is_file());
+        let script = told["scripts"][0]["name"].as_str().and_then(|script| found(Path::new(script), &journal));
         Ok(PastJournal { path: path.to_path_buf(), bytes, header, first_tick, script })
     }
 
@@ -116,6 +116,13 @@ impl PastJournal {
         };
         self.header.sources.iter().filter(is_other).map(|source| source.name.clone()).collect()
     }
+}
+
+/// The script of a run as its record names it, seen from here, or from a folder above the run: that was where it was run.
+fn found(script: &Path, journal: &Path) -> Option<PathBuf> {
+    let above = std::path::absolute(journal).ok()?;
+    let from = std::iter::once(Path::new("")).chain(above.ancestors().skip(1));
+    from.map(|folder| folder.join(script)).find(|script| script.is_file())
 }
 
 /// The runs in the folders of a folder, to be named in a help.

@@ -249,7 +249,12 @@ impl Run {
         let told = vehicle.senses().collect::<Vec<_>>().join(", ");
         message::write(&message::line(&format!("the log tells {told}")));
         let is_over = vehicle.is_over();
-        let run = MissionRun::on_link(&plan, self.seed, Box::new(vehicle)).map_err(|e| refused(&e))?;
+        let run = MissionRun::on_link(&plan, self.seed, Box::new(vehicle)).map_err(|error| {
+            let exit = refused(&error);
+            let help = "`--columns FILE` says what a column of it is, such as `course (deg) = NAV_HEADING`";
+            message::warning("the log tells too little for this mission", help);
+            exit
+        })?;
         Ok((plan, run, is_over))
     }
 

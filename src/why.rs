@@ -49,9 +49,24 @@ impl Why {
             && *ticks.start() >= explanation.ticks
         {
             let lasted = explanation.ticks as f64 / 10.0;
-            let what = format!("the run was over by then: it lasted {lasted:.1} s");
-            message::error(&what, Some("choose an earlier time"));
+            let (what, help) = match &explanation.ending {
+                Ending::Complete(_) => {
+                    (format!("the run was over by then: it lasted {lasted:.1} s"), "choose an earlier time")
+                }
+                _ => (
+                    format!("the journal ends before: it holds {lasted:.1} s, and is not whole"),
+                    "choose an earlier time",
+                ),
+            };
+            message::error(&what, Some(help));
             return Err(Exit::Usage);
+        }
+        if let Some(tick) = explanation.differs_at {
+            let what = format!("from {:.1} s on the journal does not hold what its scripts do", tick as f64 / 10.0);
+            message::warning(
+                &what,
+                "what is told of conditions from there on is not of the run; `albacore replay` tells more",
+            );
         }
         match self.json {
             true => output::print_json(&explanation),
@@ -72,7 +87,9 @@ impl Why {
         if let (Some(moment), true) = (&explanation.moment, explanation.decisions.is_empty()) {
             let clock = past.first_tick.map(|first| first.after(moment.tick as f64 / 10.0).time_of_day());
             let clock = clock.map_or_else(String::new, |clock| format!("  {clock}"));
-            lines.add(&format!("at {:.1} s{clock}: {}", moment.tick as f64 / 10.0, moment.under_way.join(" > ")));
+            let held = if moment.held { "  (held: something that the mission requires is too old)" } else { "" };
+            let under_way = moment.under_way.join(" > ");
+            lines.add(&format!("at {:.1} s{clock}: {under_way}{held}", moment.tick as f64 / 10.0));
             lines.add("nothing was decided then");
             let told = [("before", &explanation.before), ("after", &explanation.after)];
             for (when, line) in told.into_iter().filter_map(|(when, line)| Some((when, line.as_ref()?))) {
@@ -106,10 +123,12 @@ fn tell_decision(decision: &Decision, whole: bool, lines: &mut Lines) {
     let conditions: Vec<TriedCondition> =
         decision.conditions.iter().filter(|condition| whole || condition.holds).cloned().collect();
     for line in &decision.lines {
-        // The values stand with the condition.
-        let values = conditions.iter().find(|c| c.holds && !c.values.is_empty() && line.ends_with(&c.values));
-        let line = values.map_or(line.as_str(), |c| line.strip_suffix(&c.values).unwrap_or(line).trim_end());
-        lines.add(line);
+        // The values of the trace stand with the condition, which has all their digits.
+        let place = conditions.iter().filter(|c| c.holds && !c.place.is_empty()).find_map(|c| {
+            let end = line.find(&c.place)? + c.place.len();
+            line.get(..end)
+        });
+        lines.add(place.unwrap_or(line));
     }
     tell_conditions(&conditions, lines);
     if whole || !conditions.is_empty() || decision.inputs.iter().any(InputAge::is_stale) {

@@ -8,7 +8,7 @@
 use crate::fault::{Faults, Unreadable, shortened};
 use std::collections::BTreeMap;
 
-/// No mission lasts so long, s: a later time counts from another beginning.
+/// No mission lasts so long, s: a later time counts from another beginning. What came before the log began has a time below 0.
 const TIME_MAX_S: f64 = 3.6e7;
 
 /// The numbers that each variable had, with their times, s, in the order of the log. What is no number is passed over.
@@ -24,7 +24,7 @@ pub fn read(bytes: &[u8]) -> Result<Variables, Unreadable> {
         }
         let mut cells = text.split_whitespace();
         let time = cells.next().and_then(|cell| cell.parse::<f64>().ok());
-        let Some(time) = time.filter(|time| (0.0..=TIME_MAX_S).contains(time)) else {
+        let Some(time) = time.filter(|time| time.abs() <= TIME_MAX_S) else {
             let help = "each line of an alog begins with its time in seconds since the log began";
             faults.add(format!("line {line} begins with no time: `{}`", shortened(text)), help);
             continue;
@@ -39,6 +39,8 @@ pub fn read(bytes: &[u8]) -> Result<Variables, Unreadable> {
             variables.entry(name.to_string()).or_default().push((time, value));
         }
     }
+    // Programs write into a log as they come to it.
+    variables.values_mut().for_each(|values| values.sort_by(|a, b| a.0.total_cmp(&b.0)));
     match faults.into_unreadable() {
         Some(unreadable) => Err(unreadable),
         None => Ok(variables),

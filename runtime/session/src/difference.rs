@@ -5,7 +5,7 @@ use crate::summary::{BehaviorSummary, Report, Summary};
 use albacore_geometry::Point;
 use albacore_trace::journal::{Entry, JournalHeader, Reader};
 use albacore_trace::{Step, TickRecord, deeds, same_behavior};
-use albacore_vehicle::{TICK_S, seconds};
+use albacore_vehicle::{Sample, Snapshot, TICK_S, seconds};
 use serde::Serialize;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::collections::BTreeMap;
@@ -129,7 +129,11 @@ impl RunDifference {
 
     /// Whether nothing at all differs in what was sensed, commanded and done.
     pub fn is_same(&self) -> bool {
-        self.sensed_at.is_none() && self.commanded_at.is_none() && self.same_behavior && self.deeds.is_empty()
+        self.sensed_at.is_none()
+            && self.commanded_at.is_none()
+            && self.same_behavior
+            && self.deeds.is_empty()
+            && self.ends[0] == self.ends[1]
     }
 }
 
@@ -183,7 +187,7 @@ fn numbers(journals: [Reader<'_>; 2]) -> (Option<u64>, Option<u64>) {
             (Some(a), Some(b)) => a.tick != b.tick || part(a, b),
             _ => true,
         };
-        if differs(&|a, b| a.snapshot.samples != b.snapshot.samples || a.snapshot.control != b.snapshot.control) {
+        if differs(&|a, b| !is_same_snapshot(&a.snapshot, &b.snapshot)) {
             sensed.get_or_insert(tick);
         }
         if differs(&|a, b| a.command != b.command) {
@@ -191,6 +195,13 @@ fn numbers(journals: [Reader<'_>; 2]) -> (Option<u64>, Option<u64>) {
         }
     }
     (sensed, commanded)
+}
+
+/// Whether the same was sensed, to the bit: what is no number is itself.
+fn is_same_snapshot(a: &Snapshot, b: &Snapshot) -> bool {
+    let bits = |sample: &Sample| (sample.measurement, sample.reading.map(f64::to_bits));
+    a.samples.iter().map(bits).eq(b.samples.iter().map(bits))
+        && (a.control, a.aground, &a.answers) == (b.control, b.aground, &b.answers)
 }
 
 fn tick(entry: Entry) -> Option<Box<TickRecord>> {

@@ -17,6 +17,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub const LOG_BYTES_MAX: u64 = 1 << 28;
 /// Numbers of one sample stand in a log no farther apart than this, s.
 const TOGETHER_S: f64 = 0.5;
+/// So many heads of a log are named in a message.
+const HEADS_TOLD: usize = 12;
+/// How exact a place is.
+const SIGMA: &str = "position.sigma (m)";
 /// The columns of a place on the globe.
 const GLOBE: [&str; 2] = ["latitude (deg)", "longitude (deg)"];
 
@@ -59,16 +63,22 @@ pub struct LoggedVehicle {
 /// Reads which column of a log is which: lines such as `depth (m) = Depth_m`; `#` begins a remark.
 pub fn column_names(text: &str) -> Result<Names, Fault> {
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !matches!(line.trim().chars().next(), None | Some('#')));
-    let named = lines.map(|(line, text)| match text.split_once(" = ").or_else(|| text.split_once('=')) {
-        Some((ours, theirs)) if !ours.trim().is_empty() && !theirs.trim().is_empty() => {
-            Ok((ours.trim().to_string(), theirs.trim().to_string()))
+    let mut names = Names::new();
+    for (line, text) in lines {
+        let (ours, theirs) = match text.split_once(" = ").or_else(|| text.split_once('=')) {
+            Some((ours, theirs)) if !ours.trim().is_empty() && !theirs.trim().is_empty() => {
+                (ours.trim(), theirs.trim())
+            }
+            _ => {
+                let help = "write what it is, and what the log calls it: `depth (m) = Depth_m`";
+                return Err(Fault::new(format!("line {line} names no column: `{}`", text.trim()), help));
+            }
+        };
+        if names.insert(ours.to_string(), theirs.to_string()).is_some() {
+            return Err(Fault::new(format!("line {line} names `{ours}` once more"), "leave one of the two out"));
         }
-        _ => Err(Fault::new(
-            format!("line {line} names no column: `{}`", text.trim()),
-            "write what it is, and what the log calls it: `depth (m) = Depth_m`",
-        )),
-    });
-    named.collect()
+    }
+    Ok(names)
 }
 
 impl FieldLog<'_> {
@@ -81,23 +91,31 @@ impl FieldLog<'_> {
             let message = faults.fold(first.message, |all, fault| format!("{all}; {}", fault.message));
             Fault::new(message, first.help)
         };
-        let table = if self.is_alog { Table::of_alog(self).map_err(wrong)? } else { Table::Csv(self.renamed()) };
+        let table = match self.is_alog {
+            true => Table::of_alog(self).map_err(wrong)?,
+            false => Table::Csv(self.bytes, self.names.clone()),
+        };
+        self.check_names(&table)?;
         let mut samples: BTreeMap<u64, Vec<(u16, Reading)>> = BTreeMap::new();
-        let mut sensed = Vec::new();
+        let mut sensed: Vec<(u16, Vec<(f64, Reading)>)> = Vec::new();
         for (number, row) in (0..).zip(&measurements::ALL) {
             let readings = match number {
                 POSITION => self.position(&table, plan).map_err(wrong)?,
                 _ => readings(&table, row.name, row.quantity).map_err(wrong)?,
             };
-            if readings.is_empty() {
-                continue;
+            if !readings.is_empty() {
+                sensed.push((number, readings));
             }
-            sensed.push(number);
-            for (time, mut reading) in readings {
-                if row.quantity == Quantity::Direction {
+        }
+        // The run begins with the first of them, whatever the log's own clock says then.
+        let times = sensed.iter().flat_map(|(_, readings)| readings).map(|(time, _)| *time);
+        let first = times.fold(f64::INFINITY, f64::min);
+        for (number, readings) in &sensed {
+            for (time, mut reading) in readings.iter().copied() {
+                if measurements::info(*number).quantity == Quantity::Direction {
                     reading[0] = Heading::from_radians(reading[0]).radians();
                 }
-                samples.entry((time / TICK_S).round() as u64).or_default().push((number, reading));
+                samples.entry(((time - first) / TICK_S).round() as u64).or_default().push((*number, reading));
             }
         }
         let Some(end) = samples.keys().next_back().map(|last| last + 1) else {
@@ -105,33 +123,46 @@ impl FieldLog<'_> {
             return Err(Fault::new("it holds nothing that a vehicle senses", help));
         };
         let measurements = measurements::delivered(|row| {
-            measurements::number(row.name).is_some_and(|number| sensed.contains(&number))
+            measurements::number(row.name).is_some_and(|number| sensed.iter().any(|(known, _)| *known == number))
         });
         Ok(LoggedVehicle { measurements, samples, tick: 0, end, is_over: Arc::default() })
     }
 
-    /// The table with its head in our names.
-    fn renamed(&self) -> Vec<u8> {
-        let text = String::from_utf8_lossy(self.bytes);
-        let Some((head, rest)) = text.split_once('\n') else { return self.bytes.to_vec() };
-        let ours = |cell: &str| {
-            let name = cell.trim().trim_start_matches('\u{feff}').trim_matches('"');
-            let named = self.names.iter().find(|(_, theirs)| *theirs == name);
-            named.map_or_else(|| cell.trim().to_string(), |(ours, _)| ours.clone())
-        };
-        let head: Vec<String> = head.trim_end().split(',').map(ours).collect();
-        format!("{}\n{rest}", head.join(",")).into_bytes()
+    /// Looks for names that lead nowhere: a column that is none of ours, or that the log does not have.
+    fn check_names(&self, table: &Table) -> Result<(), Fault> {
+        let mut ours: Vec<String> =
+            GLOBE.iter().map(|head| (*head).to_string()).chain([cells::TIME.to_string()]).collect();
+        for row in measurements::ALL.iter().filter(|row| row.quantity.is_measured()) {
+            let parts = played::parts(row.name).unwrap_or_default();
+            let columns = parts.iter().flat_map(|part| played::columns(row.name, part)).map(|(column, _)| column.head);
+            ours.extend(columns);
+        }
+        for (name, theirs) in &self.names {
+            if !ours.contains(name) {
+                let near = albacore_wording::nearest(name, ours.iter().map(String::as_str));
+                let help = near
+                    .map_or_else(|| format!("there is {}", ours.join(", ")), |near| format!("did you mean `{near}`?"));
+                return Err(Fault::new(format!("`{name}` is no column that a vehicle senses"), help));
+            }
+            if !table.heads().contains(theirs) {
+                let help =
+                    format!("it has {}", table.heads().into_iter().take(HEADS_TOLD).collect::<Vec<_>>().join(", "));
+                return Err(Fault::new(format!("it has no `{theirs}`, which is to be `{name}`"), help));
+            }
+        }
+        Ok(())
     }
 
     /// Where the vehicle believed to be: on the globe where the log tells that and the mission lies there, else in the plane.
     fn position(&self, table: &Table, plan: &Plan) -> Result<Vec<(f64, Reading)>, Unreadable> {
         if let (Some(frame), true) = (plan.frame(), table.has(&GLOBE)) {
-            let columns = GLOBE.map(|head| series::Column { head: head.into(), otherwise: None, is_standing: false });
-            let is_place = |n: Numbers| n[0].abs() <= 90.0 && n[1].abs() <= 360.0;
+            let column = |head: &str, otherwise| series::Column { head: head.into(), otherwise, is_standing: false };
+            let columns = [column(GLOBE[0], None), column(GLOBE[1], None), column(SIGMA, Some(0.0))];
+            let is_place = |n: Numbers| n[0].abs() <= 90.0 && n[1].abs() <= 360.0 && n[2] >= 0.0;
             let places = table.rows("position", &columns, is_place)?;
-            let in_plane = |(time, [latitude, longitude, ..]): (f64, Numbers)| {
+            let in_plane = |(time, [latitude, longitude, sigma, _]): (f64, Numbers)| {
                 let place = frame.to_point(Geodetic::from_degrees(latitude, longitude));
-                (time, [place.north, place.east, 0.0, 0.0])
+                (time, [place.north, place.east, sigma, 0.0])
             };
             return Ok(places.into_iter().map(in_plane).collect());
         }
@@ -140,12 +171,13 @@ impl FieldLog<'_> {
 }
 
 /// A log as columns.
-enum Table {
-    Csv(Vec<u8>),
+enum Table<'a> {
+    /// Its bytes, and what it calls a column of ours.
+    Csv(&'a [u8], Names),
     Alog(Variables),
 }
 
-impl Table {
+impl Table<'_> {
     fn of_alog(log: &FieldLog) -> Result<Self, Unreadable> {
         let mut variables = alog::read(log.bytes)?;
         let mut names: Names = MOOS.iter().map(|(ours, theirs)| ((*ours).into(), (*theirs).into())).collect();
@@ -156,17 +188,31 @@ impl Table {
         Ok(Table::Alog(variables))
     }
 
-    /// Whether it has all of these columns.
-    fn has(&self, heads: &[&str]) -> bool {
+    /// What its columns are called.
+    fn heads(&self) -> Vec<String> {
         match self {
-            Table::Csv(bytes) => {
-                let head = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
-                let head = String::from_utf8_lossy(head);
-                let cells: Vec<&str> = head.trim_end().split(',').map(|cell| cell.trim().trim_matches('"')).collect();
-                heads.iter().all(|head| cells.contains(head))
+            Table::Csv(bytes, _) => {
+                let head = bytes.split(|byte| *byte == b'\n').find(|line| !line.trim_ascii().is_empty());
+                let head = String::from_utf8_lossy(head.unwrap_or_default());
+                let cells = head.trim_start_matches('\u{feff}').trim_end().split(',');
+                cells.map(|cell| cell.trim().trim_matches('"').to_string()).collect()
             }
-            Table::Alog(variables) => heads.iter().all(|head| variables.contains_key(*head)),
+            Table::Alog(variables) => variables.keys().cloned().collect(),
         }
+    }
+
+    /// What it calls a column of ours.
+    fn head(&self, ours: &str) -> String {
+        match self {
+            Table::Csv(_, names) => names.get(ours).cloned().unwrap_or_else(|| ours.to_string()),
+            Table::Alog(_) => ours.to_string(),
+        }
+    }
+
+    /// Whether it has all of these columns.
+    fn has(&self, ours: &[&str]) -> bool {
+        let heads = self.heads();
+        ours.iter().all(|head| heads.contains(&self.head(head)))
     }
 
     /// The samples of some columns, each its time and its numbers in their units.
@@ -177,7 +223,12 @@ impl Table {
         can_be: impl Fn(Numbers) -> bool,
     ) -> Result<Vec<(f64, Numbers)>, Unreadable> {
         match self {
-            Table::Csv(bytes) => series::read(bytes, Columns { time: cells::TIME, name, numbers: columns }, can_be),
+            Table::Csv(bytes, _) => {
+                let theirs =
+                    |column: &series::Column| series::Column { head: self.head(&column.head), ..column.clone() };
+                let numbers: Vec<series::Column> = columns.iter().map(theirs).collect();
+                series::read(bytes, Columns { time: &self.head(cells::TIME), name, numbers: &numbers }, can_be)
+            }
             Table::Alog(variables) => Ok(together(variables, columns, can_be)),
         }
     }

@@ -99,58 +99,63 @@ impl Changes<'_> {
 impl Plan {
     /// The plan of a run by what its journal tells of it, with changes; and its script.
     pub fn of_journal(header: &JournalHeader, changes: &Changes) -> Result<(Script, Self), PlanError> {
-        let set: Vec<String> = header.set.iter().filter(|text| !is_fault(text)).chain(changes.set).cloned().collect();
         let mission = changes.mission.unwrap_or(&header.mission);
-        let files = Files::around(changes.beside.unwrap_or(Path::new("")));
-        let (scenario, of_world): (_, &[KeptScript]) = match &header.world {
-            World::Scenario(scripts) => (header.scenario.as_str(), scripts),
-            World::Link => ("", &[]),
+        let set = set_again(&header.set, changes.set, mission);
+        let data = Files::around(changes.beside.unwrap_or(Path::new("")));
+        let elsewhere;
+        let scenario = match &header.world {
+            World::Scenario { called, scripts } if scripts.is_empty() => Some(called.as_str()),
+            World::Scenario { called, .. } => {
+                elsewhere = format!("elsewhere#{called}");
+                Some(elsewhere.as_str())
+            }
+            World::Link => None,
         };
-        let named = format!("elsewhere#{scenario}");
-        let wanted = Wanted {
-            mission: Some(mission),
-            scenario: match header.world {
-                World::Scenario(_) if of_world.is_empty() => Some(scenario),
-                World::Scenario(_) => Some(&named),
-                World::Link => None,
-            },
-            set: &set,
-        };
+        let wanted = Wanted { mission: Some(mission), scenario, set: &set };
         let (own, others) = wanted.parted();
-        let data = files.clone();
         let script = match changes.script {
             Some(path) => {
                 crate::load_for(path, &wanted).map_err(|error| PlanError::Asked(error.message, error.help))?
             }
-            None => load_kept(&header.scripts, files, &wanted.of_script(&own))?,
+            None => load_kept(&header.scripts, data.clone(), &wanted.of_script(&own))?,
         };
         let script = is_sound(script)?;
         let file = script.sources.iter().next().map_or_else(String::new, |source| source.name.to_string());
+        let program = || Ok::<_, PlanError>(Arc::new(chosen(&script, &file, Some(mission))?.1));
         let plan = match &header.world {
             World::Link => Plan::on_link(&script, &file, Some(mission), &header.scenario)?,
-            World::Scenario(scripts) if scripts.is_empty() => {
-                let called = called(&script, scenario);
-                Plan::unsuited(&script, &file, &Wanted { scenario: Some(&called), ..wanted })?
+            // Another script need not have the world: it is fed with what was sensed in it.
+            World::Scenario { called, scripts }
+                if scripts.is_empty()
+                    && changes.script.is_some()
+                    && script.scenarios().all(|known| known != called) =>
+            {
+                Plan::without_world(&script, &file, Some(mission))?
             }
-            World::Scenario(scripts) => {
-                let world = Wanted { mission: None, scenario: Some(scenario), set: &others };
+            World::Scenario { called, scripts } if scripts.is_empty() => Plan::with(&script, program()?, called)?,
+            World::Scenario { called, scripts } => {
+                let world = Wanted { mission: None, scenario: Some(called), set: &others };
                 let other = is_sound(load_kept(scripts, data, &world.of_script(&others))?)?;
-                let (_, program) = chosen(&script, &file, Some(mission))?;
-                Plan::in_world_of(&other, &script, Arc::new(program), &called(&other, scenario))?
+                Plan::in_world_of(&other, &script, program()?, called)?
             }
         };
         Ok((script, plan))
     }
 }
 
-/// A scenario as a script calls it: a journal has its name alone, and it may stand in a module.
-fn called(script: &Script, scenario: &str) -> String {
-    let is_meant = |known: &&str| known.rsplit_once('.').is_some_and(|(_, name)| name == scenario);
-    let mut meant = script.scenarios().filter(is_meant);
-    match (meant.next(), meant.next()) {
-        (Some(only), None) if script.scenarios().all(|known| known != scenario) => only.to_string(),
-        _ => scenario.to_string(),
+/// What is set in the end, of what was set for a run and what is set in its place or beside it.
+pub(crate) fn set_again(before: &[String], later: &[String], mission: &str) -> Vec<String> {
+    let name = |text: &str| {
+        let name = text.split('=').next().unwrap_or_default().trim();
+        let own = name.strip_prefix(mission).and_then(|rest| rest.strip_prefix('.'));
+        own.unwrap_or(name).to_string()
+    };
+    let mut set: Vec<String> = before.iter().filter(|text| !is_fault(text)).cloned().collect();
+    for text in later {
+        set.retain(|earlier| name(earlier) != name(text));
+        set.push(text.clone());
     }
+    set
 }
 
 /// Reads and checks the first of some scripts.
@@ -166,7 +171,7 @@ pub(crate) fn lines(
 ) -> Result<(Arc<dyn Library>, albacore_lang::prompt::Prompt, Script), PlanError> {
     let data = Files::around(changes.beside.unwrap_or(Path::new("")));
     let files = KeptFiles { scripts: header.scripts.clone(), data };
-    let set: Vec<String> = header.set.iter().filter(|text| !is_fault(text)).chain(changes.set).cloned().collect();
+    let set = set_again(&header.set, changes.set, &header.mission);
     let wanted = Wanted { mission: Some(&header.mission), scenario: None, set: &set };
     let (own, _) = wanted.parted();
     let (lines, script) = albacore_lang::prompt::Prompt::open(files.first()?, &files, &wanted.of_script(&own));

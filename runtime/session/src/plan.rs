@@ -152,7 +152,7 @@ impl Plan {
             }
         }
         let scripts = kept::scripts(script);
-        let world = Arc::new(World::Scenario(plan.scripts.to_vec()));
+        let world = Arc::new(World::Scenario { called: scenario.to_string(), scripts: plan.scripts.to_vec() });
         Ok(Plan { sources, scripts, world, ..plan })
     }
 
@@ -227,7 +227,11 @@ impl Plan {
             Some(at) if at > 0 => {
                 let mut scripts = self.scripts.to_vec();
                 scripts[..=at].rotate_right(1);
-                let world = Arc::new(World::Scenario(self.scripts.to_vec()));
+                let called = match &*self.world {
+                    World::Scenario { called, .. } => called.clone(),
+                    World::Link => String::new(),
+                };
+                let world = Arc::new(World::Scenario { called, scripts: self.scripts.to_vec() });
                 Plan { scripts: scripts.into(), world, ..self }
             }
             _ => self,
@@ -240,6 +244,24 @@ impl Plan {
         let Ground::Grid(grid) = &survey.ground else { return None };
         let area = grid.area()?;
         Some(Arc::new(move |at, within| area.contains(at).then(|| survey.shallowest_within(within, at))))
+    }
+
+    /// A mission alone, to be fed with what was sensed elsewhere.
+    pub(crate) fn without_world(script: &Script, file: &str, mission: Option<&str>) -> Result<Self, PlanError> {
+        let (_, program) = chosen(script, file, mission)?;
+        Ok(Plan {
+            program: Arc::new(program),
+            scenario: Arc::new(Scenario::default()),
+            scenario_name: String::new(),
+            scenario_script: None,
+            sources: sources(script),
+            scripts: kept::scripts(script),
+            world: Arc::new(World::Link),
+            warnings: Vec::new(),
+            places: Vec::new(),
+            survey: None,
+            deepest: Arc::default(),
+        })
     }
 
     /// The same with faults added to those of the scenario.
@@ -281,7 +303,7 @@ impl Plan {
             scenario_script,
             sources,
             scripts,
-            world: Arc::new(World::Scenario(Vec::new())),
+            world: Arc::new(World::Scenario { called: wanted.to_string(), scripts: Vec::new() }),
             warnings,
             places,
             survey,

@@ -4,7 +4,8 @@ use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
 use crate::recorders::trace::Trace;
 use crate::replay::{Replay, ReplayedStep};
-use albacore_machine::Machine;
+use albacore_geometry::math;
+use albacore_machine::{Machine, Phase};
 use albacore_program::number;
 use albacore_trace::journal::{Ending, Reader};
 use albacore_trace::{Step, TriedCondition, is_decision};
@@ -25,6 +26,8 @@ pub struct Explanation {
     pub after: Option<String>,
     /// How many ticks the journal holds.
     pub ticks: u64,
+    /// The first tick in which its scripts do not do what it says: what is told from there on is not of the run.
+    pub differs_at: Option<u64>,
     /// How it ends.
     #[serde(skip)]
     pub ending: Ending,
@@ -50,6 +53,8 @@ pub struct Moment {
     pub tick: u64,
     /// What was active, from outside in, and the statement that was under way.
     pub under_way: Vec<String>,
+    /// Whether the mission was held: something that it requires was too old.
+    pub held: bool,
     /// What was commanded.
     pub command: Option<String>,
     /// The conditions that were tried in it, in their order.
@@ -77,16 +82,21 @@ pub fn explain(journal: Reader<'_>, plan: &Plan, ticks: Option<RangeInclusive<u6
     let header = journal.header().clone();
     let mut replay = Replay::new(journal, plan, plan)?.asking(asked.clone());
     let mut trace = Trace::new(plan, header.seed, &header.measurements);
-    let (mut decisions, mut moment, mut before, mut after, mut last) = (Vec::new(), None, None, None, 0);
+    let (mut decisions, mut moment, mut before, mut after, mut count) = (Vec::new(), None, None, None, 0);
+    let mut differs_at = None;
     while let Some(step) = replay.next() {
-        let ReplayedStep { mut record, command, tried, .. } = step;
+        let ReplayedStep { mut record, command, events, tried, .. } = step;
         if matches!(record.step, Step::Wait) {
             continue;
+        }
+        let is_tick = matches!(record.step, Step::Tick);
+        count += u64::from(is_tick);
+        if events != record.events || (is_tick && command != record.command) {
+            differs_at.get_or_insert(record.tick);
         }
         let known = trace.lines().len();
         record.believed = replay.machine().position();
         trace.take(&record);
-        last = record.tick;
         let lines = trace.lines().since(known).filter(|line| is_decision(line)).map(|line| line.trim().to_string());
         let lines: Vec<String> = lines.collect();
         if record.tick < *asked.start() {
@@ -102,10 +112,11 @@ pub fn explain(journal: Reader<'_>, plan: &Plan, ticks: Option<RangeInclusive<u6
         }
         let conditions = trace.lines().tried(&tried);
         let inputs = inputs(replay.machine());
-        if moment.is_none() && ticks.is_some() && matches!(record.step, Step::Tick) {
+        if moment.is_none() && ticks.is_some() && is_tick {
             let (under_way, command) = (trace.lines().under_way(), command.map(|command| told(&command)));
             let (conditions, inputs) = (conditions.clone(), inputs.clone());
-            moment = Some(Moment { tick: record.tick, under_way, command, conditions, inputs });
+            let held = matches!(replay.machine().state().phase, Phase::Holding(_));
+            moment = Some(Moment { tick: record.tick, under_way, held, command, conditions, inputs });
         }
         if !lines.is_empty() {
             let inputs = inputs.into_iter().filter(|input| is_read(input, &conditions) || input.is_stale()).collect();
@@ -113,7 +124,7 @@ pub fn explain(journal: Reader<'_>, plan: &Plan, ticks: Option<RangeInclusive<u6
         }
     }
     let ending = replay.into_ending();
-    Ok(Explanation { decisions, moment, before, after, ticks: last + 1, ending })
+    Ok(Explanation { decisions, moment, before, after, ticks: count, differs_at, ending })
 }
 
 impl InputAge {
@@ -150,9 +161,9 @@ fn is_read(input: &InputAge, conditions: &[TriedCondition]) -> bool {
 pub(crate) fn told(command: &Command) -> String {
     use albacore_vehicle::Vertical::{Altitude, Depth};
     let vertical = match command.vertical {
-        Depth(depth) => format!("depth {}", number::metres(depth)),
-        Altitude(altitude) => format!("altitude {}", number::metres(altitude)),
+        Depth(depth) => format!("depth {} m", number::fixed(depth, 2)),
+        Altitude(altitude) => format!("altitude {} m", number::fixed(altitude, 2)),
     };
-    let (heading, speed) = (number::heading(command.heading.radians()), number::metres_per_second(command.speed));
-    format!("heading {heading}, {speed} through the water, {vertical}")
+    let heading = number::fixed(math::degrees(command.heading.radians()), 2);
+    format!("heading {heading} deg, {} m/s through the water, {vertical}", number::fixed(command.speed, 3))
 }

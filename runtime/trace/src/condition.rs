@@ -51,7 +51,9 @@ impl TriedCondition {
     /// The same without the values.
     pub fn terms_alone(&self) -> Vec<String> {
         let TriedCondition { decides, place, condition, .. } = self;
-        let mut lines = vec![format!("  {}  {decides}  {place}  on {condition}", yes(Some(self.holds)))];
+        // A rule with `done` is tried once more when the behavior has come to its end.
+        let at_end = if self.done { "  (at its end)" } else { "" };
+        let mut lines = vec![format!("  {}  {decides}  {place}  on {condition}{at_end}", yes(Some(self.holds)))];
         for term in &self.terms {
             let indent = term.depth as usize * TERM_INDENT;
             lines.push(format!("         {:indent$}{}  {}", "", yes(term.holds), term.text));
@@ -88,7 +90,7 @@ impl Wording {
             place,
             done: tried.done,
             holds: tried.holds,
-            values: self.values(named, &tried.values),
+            values: self.values_in_full(named, &tried.values),
             terms: terms.collect(),
         }
     }

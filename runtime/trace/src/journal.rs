@@ -80,8 +80,13 @@ pub struct KeptScript {
 /// What a mission ran in.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum World {
-    /// A scenario: of the mission's script or the standard library, or of another script, whose texts these are.
-    Scenario(Vec<KeptScript>),
+    /// A scenario.
+    Scenario {
+        /// What the script calls it in which it stands: `sparse`, or `worlds.sparse` of a module.
+        called: String,
+        /// That script and what it imports, where it is another than the mission's.
+        scripts: Vec<KeptScript>,
+    },
     /// A vehicle at the end of a link.
     Link,
 }

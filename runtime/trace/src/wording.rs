@@ -245,6 +245,21 @@ impl Wording {
         done + &self.values(watched.iter().map(|watched| (watched.name.as_str(), &watched.shape)), values)
     }
 
+    /// Named values with as many digits as they take: one that just reaches another is to be seen.
+    pub(crate) fn values_in_full<'a>(
+        &self,
+        named: impl Iterator<Item = (&'a str, &'a Shape)>,
+        words: &[f64],
+    ) -> String {
+        let mut at = 0;
+        let values = named.map(|(name, shape)| {
+            let value = number::brief(&self.names.program.texts, shape, words.get(at..).unwrap_or(&[]));
+            at += shape.words() as usize;
+            format!("{name} = {}", one_line(&value))
+        });
+        values.collect::<Vec<_>>().join(", ")
+    }
+
     /// Named values, one after the other.
     pub(crate) fn values<'a>(&self, named: impl Iterator<Item = (&'a str, &'a Shape)>, words: &[f64]) -> String {
         let mut at = 0;

@@ -28,7 +28,7 @@ fn header() -> JournalHeader {
             module: "missions/box".into(),
             text: "mission box {}".into(),
         }],
-        world: World::Scenario(Vec::new()),
+        world: World::Scenario { called: "tidal_stream".into(), scripts: Vec::new() },
     }
 }
 
@@ -170,7 +170,7 @@ fn what_is_no_journal_is_said_to_be_none() {
     let said = |bytes: &[u8]| Journal::read(bytes).unwrap_err().to_string();
     assert_eq!(said(b""), "the journal is cut short at byte 0, where the beginning of a journal was expected");
     assert!(said(b"mission box").starts_with("this is no journal, or a damaged one: at byte 0"));
-    let expected = "the journal has the form of version 7, and this albacore reads version 5 alone: read it with the albacore that wrote it";
+    let expected = "the journal has the form of version 7, and this albacore reads version 6 alone: read it with the albacore that wrote it";
     assert_eq!(said(b"ALBJ\x07\0\0\0"), expected);
     // The form before delays, withheld samples and gaps: its records would be read as something else.
     let (good, _) = journal();

@@ -34,8 +34,11 @@ impl Prompt {
 
     /// Tells the conditions of the last tick, or of that of a time since the beginning.
     pub(super) fn why(&mut self, time: Option<&str>, say: &mut Listener) -> Answer {
+        // What has ended in this very tick was tried in it.
+        let ended_now = self.now.ended.as_ref().is_some_and(|ended| ended.at == self.now.tick) || self.now.is_over;
+        let next = self.now.tick + u64::from(ended_now);
         let tick = match time {
-            None => match self.now.tick.checked_sub(1) {
+            None => match next.checked_sub(1) {
                 Some(tick) => tick,
                 None => return wrong("no tick has gone by", say),
             },
@@ -44,10 +47,11 @@ impl Prompt {
                 None => return Answer::Wrong,
             },
         };
-        if tick >= self.now.tick {
+        if tick >= next {
             return wrong("that has not been yet", say);
         }
-        let Some(mut moment) = self.past.before(tick) else {
+        let is_end = ended_now && tick == self.now.tick;
+        let Some(mut moment) = self.past.before(if is_end { tick.saturating_sub(1) } else { tick }) else {
             return wrong("that moment is not remembered any more", say);
         };
         while moment.tick < tick {

@@ -5,6 +5,7 @@ use super::moment::Task;
 use super::opening::{Loaded, OpenError};
 use super::{Answer, Listener, Prompt, Say, wrong};
 use crate::difference::deed_differences;
+use crate::kept::set_again;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many differences from what it did before are told.
@@ -13,9 +14,8 @@ const TOLD_MAX: usize = 5;
 impl Prompt {
     pub(super) fn set(&mut self, name: &str, value: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
         let before = self.opening.set.clone();
-        let is_it = |text: &String| text.split_once('=').is_some_and(|(set, _)| set.trim() == name);
-        self.opening.set.retain(|text| !is_it(text));
-        self.opening.set.push(format!("{name}={value}"));
+        let mission = self.loaded.mission.as_ref().map_or("", |program| program.mission.name.as_str());
+        self.opening.set = set_again(&before, &[format!("{name}={value}")], mission);
         let answer = self.change(interrupted, say);
         if answer != Answer::Done {
             self.opening.set = before;
@@ -115,7 +115,7 @@ impl Prompt {
         let mut past = self.past.clone();
         past.forget_after(began);
         past.pin(&moment);
-        while moment.tick < self.now.tick {
+        while moment.tick < self.now.tick && !moment.is_over {
             if interrupted.swap(false, Ordering::Relaxed) {
                 return Err("interrupted: all is as it was".to_string());
             }

@@ -113,7 +113,6 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             Command::Misused("a script is not loaded at the prompt", help)
         }
         ("why", "") => Command::Why(None),
-        ("why", time) if has_value => Command::Why(Some(time)),
         ("reload", "") => Command::Reload,
         ("forks", "") => Command::Forks,
         ("set", _) if has_value => match rest.split_once('=') {
@@ -123,18 +122,27 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             _ => Command::Misused("which parameter, and what value?", "for example `set lambda = 4 s`"),
         },
         ("fork", name) if is_path(name) => Command::Fork(name),
-        ("fork", "") => Command::Misused("under what name?", "for example `fork before_the_turn`"),
+        ("fork", _) if rest.is_empty() || has_value || rest.starts_with('"') => {
+            Command::Misused("under what name?", "one word, for example `fork before_the_turn`")
+        }
+        ("compare" | "explain", "") => {
+            Command::Misused("with what?", "for example `compare before`, `explain units::unknown`")
+        }
+        ("why", _) if rest.contains(':') => {
+            Command::Misused("a time at the prompt is one of its own", "for example `why 751 s`")
+        }
         ("compare", name) if is_path(name) => Command::Compare(name),
         ("switch", to) if to.strip_prefix("to ").is_some_and(|name| is_path(name.trim())) => {
             Command::SwitchTo(to.strip_prefix("to ").unwrap_or(to).trim())
         }
+        ("why", time) if has_value => Command::Why(Some(time)),
         ("plot", "") => Command::Misused("plot what?", "for example `plot chemical, depth`"),
         ("plot", _) if has_value => match rest.rsplit_once(" to ") {
             Some((what, file)) => Command::Plot(what.trim(), Some(file.trim())),
             None => Command::Plot(rest, None),
         },
         ("save", _) if rest.starts_with("test") => saved(rest).unwrap_or(Command::Misused(
-            "a test needs a name and a file",
+            "a test needs a name and a script of its own",
             "for example `save test \"it turns\" to turns.alb`",
         )),
         ("explain", code) if has_value => Command::Explain(code),
@@ -163,8 +171,9 @@ fn is_path(text: &str) -> bool {
 /// `test "NAME" to FILE`.
 fn saved(rest: &str) -> Option<Command<'_>> {
     let (name, file) = rest.strip_prefix("test")?.trim().strip_prefix('"')?.split_once('"')?;
-    let file = file.trim().strip_prefix("to ")?.trim();
-    (!name.trim().is_empty() && !file.is_empty()).then_some(Command::SaveTest(name, file))
+    let file = file.trim().strip_prefix("to ")?.trim().trim_matches('"');
+    (!name.trim().is_empty() && file.len() > ".alb".len() && file.ends_with(".alb"))
+        .then_some(Command::SaveTest(name, file))
 }
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ pub struct Moment {
     /// The values that have got a name by `let` and `var`.
     names: Vec<Named>,
     recent: VecDeque<(u64, Vec<Sample>)>,
+    /// What a run that is over has left has been gone through, to its last tick.
+    pub is_over: bool,
     /// What the vehicle was last told.
     command: Option<Command>,
     trust: Trust,
@@ -45,8 +47,9 @@ pub struct Moment {
 pub struct Ended {
     pub outcome: Outcome,
     pub trace: BehaviorTrace,
-    /// The tick in which it began.
+    /// The ticks in which it began, and ended.
     pub began: u64,
+    pub at: u64,
     /// The places that report in it.
     pub sites: Vec<ReportSite>,
     /// What was reported: which of them, and its words.
@@ -178,6 +181,7 @@ impl Moment {
             ended: None,
             names: Vec::new(),
             recent: VecDeque::new(),
+            is_over: false,
             command: None,
             trust: Trust::default(),
             notices: Vec::new(),
@@ -258,7 +262,7 @@ impl Moment {
                 {
                     let Task { machine, trace, began, reported, .. } = task;
                     let sites = machine.program().reports.clone();
-                    self.ended = Some(Ended { outcome, trace, began, sites, reported });
+                    self.ended = Some(Ended { outcome, trace, began, at: self.tick, sites, reported });
                 }
                 left.into_iter().for_each(|left| self.name(left));
                 return Ok(true);
@@ -269,6 +273,10 @@ impl Moment {
             let command = command.unwrap_or_else(|| self.still());
             self.vehicle.command(&command)?;
             self.command = Some(command);
+        }
+        if self.vehicle.is_at_end() {
+            self.is_over = true;
+            return Ok(false);
         }
         self.sense()?;
         Ok(false)
@@ -342,6 +350,11 @@ impl Past {
     pub fn before(&self, tick: u64) -> Option<Moment> {
         let until = self.kept.iter().chain(&self.pinned).filter(|m| m.tick <= tick);
         until.max_by_key(|m| m.tick).cloned()
+    }
+
+    /// The moment of a tick, if something was begun or ended in it, or got a name.
+    pub fn pinned_at(&self, tick: u64) -> Option<&Moment> {
+        self.pinned.iter().find(|moment| moment.tick == tick)
     }
 
     /// The earliest tick that can be gone back to.

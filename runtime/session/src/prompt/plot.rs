@@ -106,10 +106,14 @@ impl Prompt {
                     series.samples.extend(word.filter(|word| word.is_finite()).map(|word| (moment.tick, word)));
                 }
             }
-            if moment.tick >= last {
+            if moment.tick >= last || moment.is_over {
                 return Ok(series);
             }
             moment.step(&mut |_| {}).map_err(|error| error.to_string())?;
+            // What was begun then, or got a value, follows from no earlier moment.
+            if let Some(pinned) = self.past.pinned_at(moment.tick) {
+                moment = pinned.clone();
+            }
         }
     }
 }

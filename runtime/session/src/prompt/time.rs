@@ -21,7 +21,7 @@ impl Prompt {
             if until.has_come(self) {
                 break;
             }
-            if self.now.vehicle.is_at_end() {
+            if self.now.is_over {
                 say(Say::Text("the journal ends here"));
                 break;
             }
