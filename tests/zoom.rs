@@ -23,8 +23,14 @@ fn a_picture_shows_the_time_that_is_asked_for() {
     let (part, told) = picture(&["--zoom", "10s..30s"]);
     assert!(part.contains("shown: 10.0 s to 30.0 s") && part.len() < whole.len(), "{part}");
     assert!(!told.contains("warning"), "{told}");
+    // The depth is that of the same time, and the end is not in it.
+    for (picture, ends, last) in [(&whole, true, ">9</text>"), (&part, false, ">0.50</text>")] {
+        assert!(picture.contains(">depth (m)</text>") && picture.contains(last), "{picture}");
+        assert_eq!(picture.matches(">true bottom</text>").count(), 1, "{picture}");
+        assert_eq!(picture.contains("stroke-linejoin=\"round\"/>\n<circle"), ends, "{picture}");
+    }
     let (empty, told) = picture(&["--zoom", "1h..2h"]);
-    assert!(empty.contains("the run was over before"), "{empty}");
+    assert!(empty.contains("the run was over before") && !empty.contains(">depth (m)</text>"), "{empty}");
     assert!(told.contains("warning: nothing is in the picture: the run was over after"), "{told}");
     let (code, told) = ran(&["--no-out", "--zoom", "1s..2s"]);
     assert_eq!(code, Some(2), "{told}");

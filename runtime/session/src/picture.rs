@@ -61,6 +61,8 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         behaviors: track.behaviors.clone(),
         rounds: track.rounds.clone(),
         detections: track.detections.clone(),
+        end: track.end,
+        profile: track.profile.clone(),
         reports: summary.reports.iter().filter_map(place).collect(),
         ..of_world(scenario, scenario.environment.flow.mean)
     }
@@ -90,6 +92,8 @@ fn of_a_time(run: &InMemory, ticks: &RangeInclusive<u64>) -> Picture {
         behaviors: track.behaviors.clone(),
         rounds: track.rounds.clone(),
         detections: track.detections.clone(),
+        end: track.end,
+        profile: track.profile.clone(),
         reports: summary.reports.iter().filter(is_then).filter_map(place).collect(),
         sources: world.sources.into_iter().filter(is_beside).collect(),
         no_go: world.no_go,

@@ -1,8 +1,13 @@
 //! The bytes of an SVG: elements, coordinates with one decimal, and texts without danger.
 
+pub mod scale;
+
 use albacore_program::number::fixed;
 use albacore_program::seen::one_line;
 use std::fmt::Write;
+
+/// Colours of lines and dots (Okabe and Ito's, less yellow, plus wine and grey): told apart by the colour-blind and on white paper.
+pub const PALETTE: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#6b6b6b"];
 
 /// The width of an average letter, in parts of its size: that of the widest of the fonts asked for.
 const LETTER_WIDTH: f64 = 0.58;

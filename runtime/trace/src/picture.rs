@@ -1,4 +1,4 @@
-//! The picture of a run: a chart of the track, the plume and what was found, as an SVG that needs nothing else.
+//! The picture of a run: a chart of the track, the plume and what was found, and the depth over time, as an SVG that needs nothing else.
 
 mod cells;
 mod chart;
@@ -6,25 +6,29 @@ mod contours;
 mod frame;
 mod labels;
 mod panel;
+mod profile;
 mod track;
 
 use albacore_geometry::{Point, Vector};
-use albacore_svg::{self as svg, Svg};
+use albacore_svg::{self as svg, PALETTE, Svg};
 pub use cells::Cells;
 pub use contours::Depths;
 use frame::Frame;
+pub use profile::{Profile, Sounding};
 
-/// Behaviors by colour (Okabe and Ito's, less yellow, plus wine and grey): told apart by the colour-blind and on white paper.
-const PALETTE: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#6b6b6b"];
 /// Beyond this a coordinate is no place that a vehicle goes to.
 const COORDINATE_MAX_M: f64 = 1e8;
 
 /// Margins in pixels, around the chart.
 const TOP: f64 = 52.0;
 const SUBTITLE_LINE: f64 = 18.0;
+/// The page is so wide that all that stands beneath the title has room, but for the sake of lines that are longer than this.
+const SUBTITLE_MAX: f64 = 840.0;
 const BOTTOM: f64 = 54.0;
 const PANEL_GAP: f64 = 24.0;
 const EDGE: f64 = 20.0;
+/// Between the chart and the panel under it.
+const PROFILE_GAP: f64 = 8.0;
 
 /// All that the picture shows. Positions are north and east in metres; those that are not finite are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,6 +75,10 @@ pub struct Picture {
     pub deepest: Option<Point>,
     /// Where the vehicle started.
     pub start: Option<Point>,
+    /// Where it was at the end.
+    pub end: Option<Point>,
+    /// How deep it was over time.
+    pub profile: Profile,
     /// The flow of each layer by its name, in m/s; still water has no arrow.
     pub flows: Vec<(String, Vector)>,
 }
@@ -82,13 +90,21 @@ impl Picture {
         let frame = Frame::fit(self.extent(), top);
         let runs = track::runs(&self.track, &frame);
         let panel = panel::Panel::new(self, &frame);
-        let width = frame.right() + PANEL_GAP + panel.width() + EDGE;
-        let height = (frame.bottom() + BOTTOM).max(frame.top + panel.height() + EDGE);
+        let right = frame.right() + PANEL_GAP + panel.width();
+        let (under, beside) = (frame.bottom() + BOTTOM + PROFILE_GAP, frame.top + panel.height());
+        // Where the legend leaves room, time has the whole width.
+        let across = if beside + PROFILE_GAP < under { right } else { frame.right() } - frame.left;
+        let profile = profile::Panel::new(&self.profile, frame.left, under, across);
+        let told = self.subtitle.iter().map(|line| svg::text_width(line, 13.0)).fold(0.0, f64::max);
+        let width = right.max(EDGE + told.min(SUBTITLE_MAX)) + EDGE;
+        let end = profile.as_ref().map_or(frame.bottom() + BOTTOM, profile::Panel::end);
+        let height = end.max(beside + EDGE);
 
         let mut svg = Svg::new(width, height);
         self.heading(&mut svg, width);
         chart::draw(&mut svg, self, &frame, &runs);
         panel.draw(&mut svg, frame.right() + PANEL_GAP, frame.top);
+        profile.iter().for_each(|profile| profile.draw(&mut svg));
         svg.finish()
     }
 
@@ -119,6 +135,7 @@ impl Picture {
             .chain(self.track.iter().map(|(p, _)| *p))
             .chain(places)
             .chain(self.start)
+            .chain(self.end)
             .chain(self.deepest);
         all.filter(|p| is_place(*p))
     }

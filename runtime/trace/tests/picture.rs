@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that fails may panic")]
 
 use albacore_geometry::{Area, Grid, Heading, Point, Vector};
-use albacore_trace::{Cells, Depths, Digest, Picture};
+use albacore_trace::{Cells, Depths, Digest, Picture, Profile, Sounding};
 
 fn full() -> Picture {
     let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
@@ -55,7 +55,7 @@ fn the_picture_of_a_long_run_is_small_and_always_the_same() {
     assert!(svg.contains(">200 m<"), "a round scale bar");
     let mut digest = Digest::new();
     digest.text(&svg);
-    assert_eq!(digest.to_string(), "d00f6e951d0dadea", "the picture's bytes have changed: look at it, then accept");
+    assert_eq!(digest.to_string(), "fbb37cff0c79e398", "the picture's bytes have changed: look at it, then accept");
 }
 
 #[test]
@@ -224,4 +224,97 @@ fn areas_that_were_reported_are_drawn_and_named() {
     let svg = Picture { outlines: vec![("hollow".to_string(), dent)], ..Picture::default() }.svg();
     assert!(svg.contains(">hollow<") && svg.contains(">reported area<"), "{svg}");
     assert_eq!(svg.lines().filter(|line| line.contains("Z\" fill=\"#111\" fill-opacity=\"0.08\"")).count(), 2, "{svg}");
+}
+
+/// So many seconds at some depths over some bottom.
+fn profile(seconds: u32, depth: impl Fn(f64) -> f64, bottom: impl Fn(f64) -> f64) -> Profile {
+    let sounding = |t: u32| {
+        let t_s = f64::from(t);
+        Sounding { t_s, depth: depth(t_s), bottom: bottom(t_s), behavior: (t / 300 % 3) as u16 }
+    };
+    Profile { soundings: (0..seconds).map(sounding).collect(), is_bottom_true: true }
+}
+
+#[test]
+fn the_depth_is_under_the_chart_in_the_colours_of_the_track() {
+    let svg = Picture { profile: profile(2401, |t| 3.0 + t / 400.0, |_| 12.0), ..full() }.svg();
+    check(&svg);
+    for told in [">depth (m)<", ">time (min)<", ">true bottom<", ">40<", ">10<"] {
+        assert!(svg.contains(told), "{told}: {svg}");
+    }
+    let strokes = |svg: &str, colour: &str| svg.matches(&format!("stroke=\"{colour}\"")).count();
+    // The line of the track, that of the legend, and that of the panel.
+    assert_eq!(strokes(&svg, "#0072b2"), 1 + strokes(&full().svg(), "#0072b2"));
+    assert!(!full().svg().contains("depth (m)"), "what was not sensed is not drawn");
+    let one = Profile { soundings: profile(1, |_| 3.0, |_| 9.0).soundings, is_bottom_true: false };
+    assert!(!Picture { profile: one, ..full() }.svg().contains("depth (m)"));
+}
+
+#[test]
+fn a_bottom_is_drawn_where_it_is_known_and_near() {
+    let bottoms = |svg: &str| svg.matches("stroke=\"#8a6d3b\" stroke-width=\"1.4\"").count();
+    let drawn = |profile| Picture { profile, ..Picture::default() }.svg();
+    // Lost for a while: two pieces and the legend.
+    let lost = drawn(profile(600, |_| 5.0, |t| if (200.0..300.0).contains(&t) { f64::NAN } else { 9.0 }));
+    assert_eq!(bottoms(&lost), 3, "{lost}");
+    check(&lost);
+    let abyss = drawn(profile(600, |_| 5.0, |_| 4_000.0));
+    assert!(bottoms(&abyss) == 0 && abyss.contains(">5.0<") && !abyss.contains("true bottom"), "{abyss}");
+    // One that falls off is shown as long as it is near.
+    let edge = drawn(profile(600, |_| 5.0, |t| 10.0 + t));
+    assert!(bottoms(&edge) == 2 && edge.contains(">20<") && !edge.contains(">600<"), "{edge}");
+    // Deep down the axis does not begin at the surface.
+    let deep = drawn(profile(600, |t| 2_990.0 + t / 100.0, |_| 3_000.0));
+    assert!(deep.contains(">3000<") && !deep.contains(">1500<"), "{deep}");
+    check(&drawn(profile(2, |_| -0.1, |_| f64::INFINITY)));
+    check(&drawn(profile(5, |_| f64::NAN, |_| 3.0)));
+}
+
+#[test]
+fn the_depths_of_a_long_run_in_waves_take_little() {
+    let waves = |t: f64| 4.0 + albacore_geometry::math::sin(t * 1.7) + 0.3 * albacore_geometry::math::sin(t * 13.3);
+    let profile = profile(36_000, waves, |t| 9.0 + waves(0.3 * t));
+    let with = Picture { profile, ..Picture::default() }.svg();
+    check(&with);
+    assert!(with.len() < 80_000, "{} bytes", with.len());
+}
+
+#[test]
+fn the_end_has_a_mark_of_its_own() {
+    let end = Some(Point::new(40.0, -20.0));
+    let (with, without) = (Picture { end, ..full() }.svg(), full().svg());
+    check(&with);
+    assert_eq!((with.matches(">end</text>").count(), without.matches(">end</text>").count()), (2, 0), "and the legend");
+}
+
+#[test]
+fn lines_of_equal_depth_have_labels_apart_from_each_other() {
+    let area = Area::rectangle(Point::ORIGIN, Heading::NORTH, 320.0, 220.0);
+    let depths = Depths::sound(area.corners(), |p| 4.0 + 2.0 / (1.0 + p.distance(Point::new(20.0, -30.0)) / 40.0));
+    let svg = Picture { area: area.corners().to_vec(), depths, ..Picture::default() }.svg();
+    check(&svg);
+    let number = |line: &str, name: &str| -> f64 {
+        let after = line.split_once(&format!("{name}=\"")).unwrap().1;
+        after.split('"').next().unwrap().parse().unwrap()
+    };
+    let labels: Vec<(f64, f64)> = svg
+        .lines()
+        .filter(|line| line.contains("fill=\"#3f5f73\""))
+        .map(|line| (number(line, " x"), number(line, " y")))
+        .collect();
+    assert!((3..=16).contains(&labels.len()), "{labels:?}");
+    for (i, a) in labels.iter().enumerate() {
+        let apart = |b: &(f64, f64)| (a.0 - b.0).abs() > 19.0 || (a.1 - b.1).abs() > 13.0;
+        assert!(labels[i + 1..].iter().all(apart), "{labels:?}");
+    }
+    assert!(svg.contains(">4.8</text>"), "{svg}");
+}
+
+#[test]
+fn names_that_are_said_again_and_again_never_stand_on_each_other() {
+    let report = |i: u32| ("thermocline crossed".to_string(), Point::new(0.0, f64::from(i) * 12.0));
+    let reports = (0..60).map(report).collect();
+    let svg = Picture { reports, ..Picture::default() }.svg();
+    let count = svg.matches(">thermocline crossed</text>").count();
+    assert!((2..20).contains(&count), "{count}");
 }

@@ -1,12 +1,12 @@
-//! The way that a run took, where the rounds of its loops began, and where it detected chemical: what its picture shows.
+//! The way that a run took and how deep it was, where the rounds of its loops began, and where it detected chemical: what its picture shows.
 
-use super::Recorder;
+use super::{Recorder, Sensor};
 use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_machine::Event;
 use albacore_program::{ActivityId, Body, Program};
-use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::{Measurement, measurements};
+use albacore_trace::{Profile, Sounding, Step, TickRecord};
+use albacore_vehicle::{Measurement, measurements, seconds};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -16,7 +16,10 @@ const TRACK_EVERY_TICKS: u64 = 5;
 /// Detections: readings at or above this share of full scale, the papers' threshold.
 pub(crate) const DETECTION: f64 = 0.04;
 
-/// Gathers the track and the detections.
+/// What was sensed longer ago than this is not known any more.
+const SENSED_TICKS: u64 = 100;
+
+/// Gathers the track, the depths and the detections.
 pub(crate) struct Track {
     program: Arc<Program>,
     /// The behaviors of all tables.
@@ -36,6 +39,16 @@ pub(crate) struct Track {
     pub rounds: Vec<(String, Point)>,
     /// Where something was detected.
     pub detections: Vec<Point>,
+    /// How deep the vehicle was over time.
+    pub profile: Profile,
+    /// Where it was at the end, if that is shown.
+    pub end: Option<Point>,
+    /// Where it was last.
+    last: Option<Point>,
+    depth: Sensor,
+    altitude: Sensor,
+    /// The depth and the bottom that were sensed last, and when.
+    sensed: [Option<(u64, f64)>; 2],
 }
 
 impl Track {
@@ -58,6 +71,12 @@ impl Track {
             places: BTreeMap::new(),
             rounds: Vec::new(),
             detections: Vec::new(),
+            profile: Profile::default(),
+            end: None,
+            last: None,
+            depth: Sensor::new(delivered, measurements::name(measurements::DEPTH)),
+            altitude: Sensor::new(delivered, measurements::name(measurements::ALTITUDE)),
+            sensed: [None; 2],
         }
     }
 
@@ -81,6 +100,29 @@ impl Track {
         }
     }
 
+    /// Takes down what the depth is, and the bottom beneath.
+    fn sense(&mut self, record: &TickRecord) {
+        let latest = |sensor: &Sensor| sensor.latest(&record.snapshot).filter(|x| x.is_finite());
+        if let Some(depth) = latest(&self.depth) {
+            self.sensed[0] = Some((record.tick, depth));
+        }
+        if let Some((altitude, (_, depth))) = latest(&self.altitude).zip(self.sensed[0]) {
+            self.sensed[1] = Some((record.tick, depth + altitude));
+        }
+    }
+
+    /// A point of the profile, where the depth is known.
+    fn sound(&mut self, record: &TickRecord, behavior: u16) {
+        let fresh = self
+            .sensed
+            .map(|sensed| sensed.filter(|(tick, _)| record.tick.saturating_sub(*tick) <= SENSED_TICKS).map(|(_, x)| x));
+        let [Some(depth), bottom] = fresh else { return };
+        self.profile.is_bottom_true |= record.truth.is_some();
+        let bottom = record.truth.map(|truth| truth.depth + truth.altitude).or(bottom);
+        let bottom = bottom.unwrap_or(f64::NAN);
+        self.profile.soundings.push(Sounding { t_s: seconds(record.tick), depth, bottom, behavior });
+    }
+
     fn index_of(&mut self, behavior: ActivityId) -> u16 {
         // A journal may be of a script that has changed since.
         let name = self.program.activities.get(behavior as usize).map_or("?", |activity| &activity.name);
@@ -96,9 +138,15 @@ impl Track {
 
 impl Recorder for Track {
     fn take(&mut self, record: &TickRecord) {
-        if self.zoom.as_ref().is_some_and(|ticks| !ticks.contains(&record.tick)) {
+        let is_shown = |tick: u64| self.zoom.as_ref().is_none_or(|ticks| ticks.contains(&tick));
+        // The end stands at the tick that would have come next.
+        if record.ending().is_some() && is_shown(record.tick.saturating_sub(1)) {
+            self.end = record.believed.or(record.here()).or(self.last);
+        }
+        if !is_shown(record.tick) {
             return;
         }
+        self.sense(record);
         let happened = !record.events.is_empty();
         match record.step {
             Step::Tick => {}
@@ -106,11 +154,13 @@ impl Recorder for Track {
             _ => return,
         }
         let Some(at) = record.believed.or(record.here()) else { return };
+        self.last = Some(at);
         if (record.tick.is_multiple_of(TRACK_EVERY_TICKS) || happened)
             && let Some(behavior) = self.shown(&record.active)
         {
             let index = self.index_of(behavior);
             self.points.push((at, index));
+            self.sound(record, index);
         }
         self.mark(record, at);
         let mut samples = record.snapshot.samples.iter();

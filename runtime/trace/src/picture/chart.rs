@@ -6,7 +6,7 @@ use albacore_program::number::fixed;
 use std::{collections::BTreeSet, fmt::Write};
 
 /// At most so many filaments are drawn: evenly spaced in the order they are given.
-const FILAMENTS_MAX: usize = 3_000;
+const FILAMENTS_MAX: usize = 2_400;
 /// Detections closer than this on the page, in pixels, are one cross.
 const DETECTION_CELL: f64 = 6.0;
 /// At most so many crosses.
@@ -190,7 +190,8 @@ fn chosen(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..shown).map(move |i| i * count / shown)
 }
 
-fn track(svg: &mut Svg, runs: &[Run]) {
+/// The track, coloured by behavior.
+pub fn track(svg: &mut Svg, runs: &[Run]) {
     svg.raw("<g fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke-linecap=\"round\">");
     // One element for each behavior, not for each stretch: a table that switches every second must not fill the file.
     for behavior in runs.iter().map(|run| run.behavior).collect::<BTreeSet<_>>() {
@@ -257,10 +258,12 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let reports = dots(&picture.reports, frame, REPORT_CELL, REPORTS_MAX);
     let legs = legs(&picture.rounds, frame);
     let rounds = dots(&legs, frame, ROUND_CELL, ROUNDS_MAX);
-    let [start, deepest] = [picture.start, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
+    let [start, end, deepest] =
+        [picture.start, picture.end, picture.deepest].map(|p| p.filter(|p| is_place(*p)).map(|p| frame.place(p)));
     let mut taken: Vec<_> = sources.iter().map(|(_, at)| (*at, RING)).collect();
     taken.extend(deepest.map(|at| (at, RING)));
-    taken.extend(reports.iter().map(|(_, at)| (*at, 6.0)).chain(start.map(|at| (at, 8.0))));
+    taken
+        .extend(reports.iter().map(|(_, at)| (*at, 6.0)).chain([start, end].into_iter().flatten().map(|at| (at, 8.0))));
     taken.extend(rounds.iter().map(|(_, at)| (*at, 4.0)));
     let mut around = outline(&picture.area, frame);
     around.extend(around.first().copied());
@@ -270,6 +273,7 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let mut labels = Labels::new(lines, &taken);
 
     rounds.iter().for_each(|(_, at)| round_mark(svg, *at));
+    end.into_iter().for_each(|at| end_mark(svg, at));
     start.into_iter().for_each(|at| start_mark(svg, at));
     sources.iter().map(|(_, at)| *at).chain(deepest).for_each(|at| source_mark(svg, at));
     reports.iter().for_each(|(_, at)| report_mark(svg, *at));
@@ -284,16 +288,23 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
             labels.put(svg, frame, middle, name, colour);
         }
     }
-    for (name, at) in reports.iter().take(LABELS_MAX) {
-        labels.put(svg, frame, *at, name, "#111");
+    let mut named = BTreeSet::new();
+    let (first, again): (Vec<_>, Vec<_>) = reports.iter().take(LABELS_MAX).partition(|(name, _)| named.insert(*name));
+    for (name, at) in first {
+        labels.put(svg, frame, at, name, "#111");
     }
     for (name, at) in &sources {
         labels.put(svg, frame, *at, name, SOURCE);
     }
     start.into_iter().for_each(|at| labels.put(svg, frame, at, "start", "#111"));
+    end.into_iter().for_each(|at| labels.put(svg, frame, at, "end", "#111"));
+    for (name, at) in again {
+        labels.put_again(svg, frame, at, name, "#111");
+    }
     for (name, at) in rounds {
         labels.put(svg, frame, at, name, ROUND);
     }
+    picture.depths.label(svg, frame, &mut labels);
 }
 
 /// A small open dot.
@@ -305,6 +316,13 @@ pub fn round_mark(svg: &mut Svg, at: (f64, f64)) {
 pub fn start_mark(svg: &mut Svg, (x, y): (f64, f64)) {
     let corners = [(x, y - 7.0), (x + 6.5, y + 5.0), (x - 6.5, y + 5.0)];
     svg.path(&corners, true, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
+}
+
+/// A white square with a dot.
+pub fn end_mark(svg: &mut Svg, (x, y): (f64, f64)) {
+    let corners = [(x - 6.0, y - 6.0), (x + 6.0, y - 6.0), (x + 6.0, y + 6.0), (x - 6.0, y + 6.0)];
+    svg.path(&corners, true, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
+    svg.circle((x, y), 2.6, "fill=\"#111\"");
 }
 
 /// A star in a ring.

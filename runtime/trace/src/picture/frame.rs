@@ -1,5 +1,6 @@
 //! From metres to pixels: the extent of the chart, its scale, and the round steps of grid and scale bar.
 
+use super::svg::scale::round_up;
 use albacore_geometry::Point;
 use albacore_program::number::fixed;
 
@@ -93,21 +94,4 @@ impl Frame {
         };
         (step, lines(self.north_max - self.height / self.scale, self.height), lines(self.east_min, self.width))
     }
-}
-
-/// Numbers of the kind 1, 2 or 5 times a power of ten, from a millimetre to beyond all charts.
-fn round_numbers() -> impl Iterator<Item = f64> {
-    let powers = std::iter::successors(Some(1.0), |power| Some(power * 10.0)).take(14);
-    // Whole thousandths, so that each is the nearest float to what it is meant to be.
-    powers.flat_map(|power| [1.0, 2.0, 5.0].map(|round| round * power / 1000.0))
-}
-
-/// The least round number that is not below `x`.
-pub fn round_up(x: f64) -> f64 {
-    round_numbers().find(|round| x <= *round).unwrap_or(1e12)
-}
-
-/// The greatest round number that is not above `x`.
-pub fn round_down(x: f64) -> f64 {
-    round_numbers().take_while(|round| *round <= x).last().unwrap_or(1e-3)
 }

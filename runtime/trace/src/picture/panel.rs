@@ -1,7 +1,8 @@
 //! The panel beside the chart: north, flow, scale bar, and what the colours and marks mean.
 
 use super::{
-    Picture, cells, chart, contours, frame::Frame, frame::round_down, is_place, style, svg, svg::Svg, svg::px,
+    Picture, cells, chart, contours, frame::Frame, is_place, profile, style, svg, svg::Svg, svg::px,
+    svg::scale::round_down,
 };
 use albacore_geometry::Vector;
 use albacore_program::number;
@@ -45,8 +46,10 @@ impl<'a> Panel<'a> {
         let depths = picture.depths.legend();
         let map = picture.map.as_ref().map_or("", |map| map.legend.as_str());
         let area = if picture.area_name.is_empty() { "operating area" } else { &picture.area_name };
+        let bottom = picture.profile.bottom_name();
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
+            (picture.end.is_some(), "end", chart::end_mark),
             (!picture.area.is_empty(), area, area_mark),
             (!picture.regions.is_empty(), "region", region_mark),
             (!picture.route.is_empty(), "its own mission", route_mark),
@@ -61,6 +64,7 @@ impl<'a> Panel<'a> {
             (picture.deepest.is_some(), "truly deepest", chart::source_mark),
             (!depths.is_empty(), &depths, depth_mark),
             (!map.is_empty(), map, cells::mark),
+            (!bottom.is_empty(), bottom, profile::bottom_mark),
         ];
         let marks =
             there.into_iter().filter(|(there, ..)| *there).map(|(_, name, mark)| (name.to_string(), mark)).collect();

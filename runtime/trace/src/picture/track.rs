@@ -22,19 +22,28 @@ pub struct Run {
 
 /// The track in stretches. Each begins where the one before ends.
 pub fn runs(track: &[(Point, u16)], frame: &Frame) -> Vec<Run> {
+    let places = track.iter().filter(|(p, _)| is_place(*p)).map(|(p, behavior)| (frame.place(*p), *behavior));
+    stretches(places, POINTS_MAX)
+}
+
+/// Places on the page in stretches of one behavior, with so many corners at most. Each begins where the one before ends.
+pub fn stretches(places: impl Iterator<Item = ((f64, f64), u16)>, most: usize) -> Vec<Run> {
     let mut whole: Vec<Run> = Vec::new();
-    for (p, behavior) in track.iter().filter(|(p, _)| is_place(*p)) {
-        let at = frame.place(*p);
+    for (at, behavior) in places {
         match whole.last_mut() {
-            Some(run) if run.behavior == *behavior => run.points.push(at),
+            Some(run) if run.behavior == behavior => run.points.push(at),
             Some(run) => {
                 run.points.push(at);
-                whole.push(Run { behavior: *behavior, points: vec![at] });
+                whole.push(Run { behavior, points: vec![at] });
             }
-            None => whole.push(Run { behavior: *behavior, points: vec![at] }),
+            None => whole.push(Run { behavior, points: vec![at] }),
         }
     }
-    let mut tolerance = TOLERANCE_PX;
+    thin(whole, TOLERANCE_PX, most)
+}
+
+/// Stretches with no more corners than are seen at a tolerance, and so many at most.
+pub fn thin(whole: Vec<Run>, mut tolerance: f64, most: usize) -> Vec<Run> {
     loop {
         let thin: Vec<Run> = whole
             .iter()
@@ -42,11 +51,11 @@ pub fn runs(track: &[(Point, u16)], frame: &Frame) -> Vec<Run> {
             .filter(|run| run.points.len() > 1)
             .collect();
         let count: usize = thin.iter().map(|run| run.points.len()).sum();
-        if count <= POINTS_MAX {
+        if count <= most {
             return thin;
         }
         if TOLERANCE_MAX_PX < tolerance {
-            return decimated(thin, count.div_ceil(POINTS_MAX));
+            return decimated(thin, count.div_ceil(most), most);
         }
         tolerance *= 2.0;
     }
@@ -54,8 +63,8 @@ pub fn runs(track: &[(Point, u16)], frame: &Frame) -> Vec<Run> {
 
 /// The last resort, for a track that is all corners: of each stretch every so manieth point and its last; of stretches too
 /// when there are too many of them.
-fn decimated(runs: Vec<Run>, step: usize) -> Vec<Run> {
-    let keep = runs.len().div_ceil(POINTS_MAX / 4);
+fn decimated(runs: Vec<Run>, step: usize, most: usize) -> Vec<Run> {
+    let keep = runs.len().div_ceil(most / 4);
     let thin = |run: Run| {
         let last = run.points.len() - 1;
         let kept = run.points.into_iter().enumerate().filter(|(i, _)| i % step == 0 || *i == last);
