@@ -6,6 +6,7 @@ mod digested_file;
 mod line_reader;
 mod merge;
 mod neighbours;
+mod plot;
 mod provenance;
 pub mod seeds;
 mod summary;
@@ -51,6 +52,7 @@ pub struct Campaigns {
 enum OfTables {
     Compare(compare::Compare),
     Merge(merge::Merge),
+    Plot(plot::Plot),
 }
 
 impl Campaigns {
@@ -59,6 +61,7 @@ impl Campaigns {
         match (&self.tables, self.campaign.whole()) {
             (Some(OfTables::Compare(compare)), _) => compare.run(),
             (Some(OfTables::Merge(merge)), _) => merge.run(),
+            (Some(OfTables::Plot(plot)), _) => plot.run(),
             (None, Some(campaign)) => campaign.run(),
             // The parser asks for what a campaign needs.
             (None, None) => Exit::Usage,

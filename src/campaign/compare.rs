@@ -314,25 +314,13 @@ impl Side {
     /// Reads a table.
     fn read(path: &Path) -> Result<Self, Unusable> {
         let table = WrittenTable::read(path)?;
-        let unread = |error: csv::Error| {
-            let help = "name a table of `albacore campaign`".to_string();
-            (format!("`{}` cannot be read: {error}", path.display()), help)
-        };
-        let lines = std::iter::once(&table.head).chain(table.rows.iter().map(|row| &row.line));
-        let text: Vec<u8> = lines.flatten().copied().collect();
-        let mut reader = csv::Reader::from_reader(text.as_slice());
-        let names = reader.headers().map_err(unread)?.clone();
-        let column = |name: &str| names.iter().position(|other| other == name);
-        let (outcome, columns) = (column("outcome"), QUANTITIES.map(|(name, ..)| column(name)));
         let mut cases: Vec<BTreeMap<u64, Compared>> = Vec::new();
         cases.resize_with(table.origin.cases().len(), BTreeMap::new);
-        for (written, row) in table.rows.iter().zip(reader.records()) {
-            let row = row.map_err(unread)?;
-            let cell = |column: Option<usize>| row.get(column?);
-            let numbers = columns.map(|column| cell(column)?.parse().ok());
-            let compared = Compared { completed: cell(outcome) == Some("completed"), numbers };
-            cases[written.case].insert(written.seed, compared);
-        }
+        let [error, report, end, way, switches] = QUANTITIES.map(|(name, ..)| name);
+        table.each_row(["outcome", error, report, end, way, switches], |written, [outcome, numbers @ ..]| {
+            let numbers = numbers.map(|cell| cell?.parse().ok());
+            cases[written.case].insert(written.seed, Compared { completed: outcome == Some("completed"), numbers });
+        })?;
         Ok(Side { table, cases })
     }
 }

@@ -53,10 +53,20 @@ impl CaseOrigin {
         }
     }
 
+    /// The mission and the scenario: `duck_single in duck_2003`.
+    pub fn mission_and_scenario(&self) -> String {
+        format!("{} in {}", self.mission, self.scenario)
+    }
+
+    /// The parameters that were changed, with their values.
+    pub fn set(&self) -> &[String] {
+        &self.set
+    }
+
     /// The mission, the scenario, and what was changed of them, in the words of a command: `duck_single in duck_2003 --set lambda=6s`.
     pub fn told(&self) -> String {
         let set = self.set.iter().map(|text| format!(" --set {text}"));
-        format!("{} in {}{}", self.mission, self.scenario, set.collect::<String>())
+        self.mission_and_scenario() + &set.collect::<String>()
     }
 
     /// Why runs of one seed are not of one water, if they are not.

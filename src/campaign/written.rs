@@ -111,6 +111,28 @@ impl WrittenTable {
         Ok(WrittenTable { path: path.to_path_buf(), origin, head, rows })
     }
 
+    /// Hands on some cells of each row, by the names of their columns; none of a column that it has not.
+    pub fn each_row<const N: usize>(
+        &self,
+        columns: [&str; N],
+        mut take: impl FnMut(&WrittenRow, [Option<&str>; N]),
+    ) -> Result<(), Unusable> {
+        let unread = |error: csv::Error| {
+            let help = "name a table of `albacore campaign`".to_string();
+            (format!("`{}` cannot be read: {error}", self.path.display()), help)
+        };
+        let lines = std::iter::once(&self.head).chain(self.rows.iter().map(|row| &row.line));
+        let text: Vec<u8> = lines.flatten().copied().collect();
+        let mut reader = csv::Reader::from_reader(text.as_slice());
+        let names = reader.headers().map_err(unread)?.clone();
+        let columns = columns.map(|name| names.iter().position(|other| other == name));
+        for (written, row) in self.rows.iter().zip(reader.records()) {
+            let row = row.map_err(unread)?;
+            take(written, columns.map(|column| row.get(column?)));
+        }
+        Ok(())
+    }
+
     /// The seed of its first row.
     pub fn first(&self) -> u64 {
         self.origin.first_seed()

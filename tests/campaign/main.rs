@@ -8,6 +8,7 @@ mod changed;
 mod compare;
 mod deeds;
 mod merge;
+mod plot;
 #[path = "../shell/mod.rs"]
 mod shell;
 mod sources;
