@@ -208,6 +208,12 @@ fn increments_add_up_to_the_report_of_the_finished_run() {
         let mut report = report_of(&out);
         // A page is no journal: it does not know when the clock stood at 0.
         report["head"]["first_tick"] = Value::Null;
+        // Which conditions were tried is asked of a journal, and of no run that goes on.
+        for happening in report["happenings"].as_array_mut().unwrap() {
+            if let Some(why) = happening.get_mut("why").and_then(Value::as_object_mut) {
+                why.remove("tried");
+            }
+        }
         assert_eq!(last["head"], report["head"]);
         assert!(last["head_html"].as_str().unwrap().contains(report["head"]["digest"].as_str().unwrap()));
         known.is_that_of(&report);

@@ -104,7 +104,8 @@ fn what_is_no_run_is_said() {
     other[4] = 5;
     std::fs::write(folder.join("other"), other).unwrap();
     std::fs::write(folder.join("picture"), "<svg/>").unwrap();
-    let asked: [&[&str]; 12] = [
+    let asked: [&[&str]; 13] = [
+        &["why", "cut", "--at", "50s"],
         &["replay", "."],
         &["why", "empty"],
         &["why", "none"],
@@ -144,9 +145,25 @@ fn a_log_of_the_field_is_played_through_a_mission() {
     std::fs::write(folder.join("columns.txt"), names).unwrap();
     std::fs::write(folder.join("moos.txt"), "course (deg) = NAV_HEADING\n").unwrap();
     std::fs::write(folder.join("wrong.txt"), "depth\n").unwrap();
+    std::fs::write(folder.join("misspelt.txt"), format!("{names}headng (deg) = HDG\n")).unwrap();
+    std::fs::write(folder.join("missing.txt"), format!("{names}speed (m/s) = SOG\n")).unwrap();
+    std::fs::write(folder.join("twice.txt"), format!("{names}depth (m) = Alt\n")).unwrap();
+    // The clock of the recorder stood elsewhere, and heading and course are one column.
+    let late = |line: &str| match line.split_once(',') {
+        Some((time, rest)) => {
+            time.parse().map_or(format!("{line}\n"), |time: f64| format!("{:.1},{rest}\n", time + 300.0))
+        }
+        None => format!("{line}\n"),
+    };
+    std::fs::write(folder.join("late.csv"), table.lines().map(late).collect::<String>()).unwrap();
+    std::fs::write(folder.join("one.txt"), names.replace("= COG", "= HDG")).unwrap();
     std::fs::write(folder.join("cut.alog"), "12.0 NAV_X\nx y z 3\n").unwrap();
     std::fs::write(folder.join("torn.csv"), table.replace("12.0,", "noon,")).unwrap();
-    let asked: [&[&str]; 11] = [
+    let asked: [&[&str]; 15] = [
+        &["run", "patrol.alb", "--log", "late.csv", "--columns", "one.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "misspelt.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "missing.txt", "--no-out"],
+        &["run", "patrol.alb", "--log", "dive.csv", "--columns", "twice.txt", "--no-out"],
         &["run", "patrol.alb", "--log", "dive.csv", "--columns", "columns.txt", "--no-out"],
         &["run", "patrol.alb", "--log", "dive.alog", "--columns", "moos.txt", "--out", "moos"],
         &["replay", "moos"],

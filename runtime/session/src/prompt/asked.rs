@@ -65,7 +65,8 @@ impl Prompt {
         };
         let (_, tried) = task.machine.step_asked(&moment.snapshot);
         let tried = task.trace.tried(&tried);
-        say(Say::Text(&format!("{}  {}", number::seconds(tick).trim_start(), Prompt::active_in(task))));
+        let active = format!("{}  {}", number::seconds(tick).trim_start(), Prompt::active_in(task));
+        say(Say::Text(active.trim_end()));
         if tried.is_empty() {
             say(Say::Text("no rule was there to be tried"));
         }
