@@ -5,6 +5,7 @@ use crate::output::{self, Lines};
 use crate::past::PastJournal;
 use crate::plan::refused;
 use crate::why::tell_conditions;
+use albacore_session::journal::Ending;
 use albacore_session::{Changes, DeedDifference, Departure, Parting, Repeated, depart, repeat};
 use std::path::PathBuf;
 
@@ -13,7 +14,7 @@ const TOLD_MAX: usize = 20;
 
 /// Run a mission again on what its vehicle sensed, as it was or with changes.
 ///
-/// The exit code is 0 when the replay does the same, and 1 when it departs from the run.
+/// The exit code is 0 when the replay does the same, and 1 when it departs from the run or the journal is damaged.
 #[derive(clap::Args)]
 pub struct ReplayRun {
     /// The folder of the run, or its journal.
@@ -59,7 +60,7 @@ impl ReplayRun {
                 false => tell_repeated(&repeated),
             }
             past.warn_of_end(&repeated.ending);
-            return Ok(if repeated.is_same() { Exit::Well } else { Exit::NotWell });
+            return Ok(exit(repeated.is_same(), &repeated.ending));
         }
         let (_, changed) = past.changed(&changes, project)?;
         let departure = depart(&past.bytes, &original, &changed).map_err(|error| refused(&error))?;
@@ -68,8 +69,13 @@ impl ReplayRun {
             false => tell_departure(&departure),
         }
         past.warn_of_end(&departure.ending);
-        Ok(if departure.decided.is_none() { Exit::Well } else { Exit::NotWell })
+        Ok(exit(departure.decided.is_none(), &departure.ending))
     }
+}
+
+/// Nobody knows what a damaged journal held behind the damage; one that was cut short has told all that there was.
+fn exit(is_same: bool, ending: &Ending) -> Exit {
+    if is_same && !matches!(ending, Ending::Damaged(_)) { Exit::Well } else { Exit::NotWell }
 }
 
 fn tell_repeated(repeated: &Repeated) {

@@ -73,6 +73,8 @@ fn a_message_shows_what_it_is_about_and_obeys_nothing() {
         &["export", EVIL, "--csv"],
         &["export", &name, "--csv"],
         &["report", EVIL],
+        &["campaign", "plot", EVIL, "--out", EVIL],
+        &["campaign", "plot", &name, "--out", EVIL],
     ] {
         let said = said(&folder, arguments);
         assert!(said.contains("\\u{") || said.contains('?'), "{arguments:?}: {said}");

@@ -114,11 +114,6 @@ impl Left {
         Named { name, words, shape: self.shape.clone(), ty: self.ty.clone(), held: self.held, range: self.range }
     }
 
-    /// Whether it is true or false.
-    pub fn is_condition(&self) -> bool {
-        self.ty == Type::Bool
-    }
-
     /// Whether it is a time, as `run` takes one.
     pub fn is_duration(&self) -> bool {
         self.ty == Type::Quantity(crate::dimension::Dimension::TIME)

@@ -145,17 +145,24 @@ impl Plan {
 
 /// What is set in the end, of what was set for a run and what is set in its place or beside it.
 pub(crate) fn set_again(before: &[String], later: &[String], mission: &str) -> Vec<String> {
-    let name = |text: &str| {
-        let name = text.split('=').next().unwrap_or_default().trim();
-        let own = name.strip_prefix(mission).and_then(|rest| rest.strip_prefix('.'));
-        own.unwrap_or(name).to_string()
-    };
     let mut set: Vec<String> = before.iter().filter(|text| !is_fault(text)).cloned().collect();
     for text in later {
-        set.retain(|earlier| name(earlier) != name(text));
+        set.retain(|earlier| set_name(earlier, mission) != set_name(text, mission));
         set.push(text.clone());
     }
     set
+}
+
+/// What is set, without a parameter.
+pub(crate) fn unset(before: &[String], name: &str, mission: &str) -> Vec<String> {
+    before.iter().filter(|text| set_name(text, mission) != set_name(name, mission)).cloned().collect()
+}
+
+/// The name of a parameter that is set; the mission's own are known by their names alone, too.
+fn set_name<'t>(text: &'t str, mission: &str) -> &'t str {
+    let name = text.split('=').next().unwrap_or_default().trim();
+    let own = name.strip_prefix(mission).and_then(|rest| rest.strip_prefix('.'));
+    own.unwrap_or(name)
 }
 
 /// Reads and checks the first of some scripts.

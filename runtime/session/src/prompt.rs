@@ -138,6 +138,7 @@ impl Prompt {
             Command::RunUntil(condition) => return self.run_until(condition, interrupted, say),
             Command::Why(time) => return self.why(time, say),
             Command::Set(name, value) => return self.set(name, value, interrupted, say),
+            Command::Unset(name) => return self.unset(name, interrupted, say),
             Command::Reload => return self.reload(interrupted, say),
             Command::Fork(name) => return self.fork(name, say),
             Command::SwitchTo(name) => return self.switch_to(name, say),

@@ -5,7 +5,7 @@ use super::moment::Task;
 use super::opening::{Loaded, OpenError};
 use super::{Answer, Listener, Prompt, Say, wrong};
 use crate::difference::deed_differences;
-use crate::kept::set_again;
+use crate::kept::{set_again, unset};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many differences from what it did before are told.
@@ -13,9 +13,29 @@ const TOLD_MAX: usize = 5;
 
 impl Prompt {
     pub(super) fn set(&mut self, name: &str, value: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
-        let before = self.opening.set.clone();
-        let mission = self.loaded.mission.as_ref().map_or("", |program| program.mission.name.as_str());
-        self.opening.set = set_again(&before, &[format!("{name}={value}")], mission);
+        let set = set_again(&self.opening.set, &[format!("{name}={value}")], self.mission_name());
+        self.change_set(set, interrupted, say)
+    }
+
+    pub(super) fn unset(&mut self, name: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let set = unset(&self.opening.set, name, self.mission_name());
+        if set == self.opening.set {
+            let help = match self.opening.set.as_slice() {
+                [] => "`set lambda = 4 s` sets one".to_string(),
+                set => format!("set is {}", set.join(", ")),
+            };
+            say(Say::Error(&format!("`{name}` is not set"), Some(&help)));
+            return Answer::Wrong;
+        }
+        self.change_set(set, interrupted, say)
+    }
+
+    fn mission_name(&self) -> &str {
+        self.loaded.mission.as_ref().map_or("", |program| program.mission.name.as_str())
+    }
+
+    fn change_set(&mut self, set: Vec<String>, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        let before = std::mem::replace(&mut self.opening.set, set);
         let answer = self.change(interrupted, say);
         if answer != Answer::Done {
             self.opening.set = before;

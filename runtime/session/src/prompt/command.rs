@@ -21,6 +21,7 @@ and beside it:
   behavior         what is active, from outside in
   why, why 751 s   the conditions that were tried in the last tick, or then: what they are made of
   set lambda = 4 s change a parameter: the mission is run again from its start to now
+  unset lambda     the same with it as it was before `set`
   reload           the same with the script as it is in its file now
   fork NAME        keep all that is now under a name, and go on
   switch to NAME   go on there; what is left is kept, at first under the name `main`
@@ -34,9 +35,9 @@ and beside it:
   quit             leave (Ctrl-D)";
 
 /// The words with which a command begins.
-pub const WORDS: [&str; 18] = [
-    "start", "step", "run", "back", "stop", "behavior", "why", "set", "reload", "fork", "switch", "forks", "compare",
-    "plot", "save", "explain", "names", "help",
+pub const WORDS: [&str; 19] = [
+    "start", "step", "run", "back", "stop", "behavior", "why", "set", "unset", "reload", "fork", "switch", "forks",
+    "compare", "plot", "save", "explain", "names", "help",
 ];
 
 /// Time goes by this many ticks at most before the prompt comes back: ten hours.
@@ -63,6 +64,8 @@ pub enum Command<'a> {
     Why(Option<&'a str>),
     /// A parameter and its value, as they were typed.
     Set(&'a str, &'a str),
+    /// A parameter that was set.
+    Unset(&'a str),
     Reload,
     Fork(&'a str),
     SwitchTo(&'a str),
@@ -121,6 +124,10 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             }
             _ => Command::Misused("which parameter, and what value?", "for example `set lambda = 4 s`"),
         },
+        ("unset", name) if is_path(name) => Command::Unset(name),
+        ("unset", _) if rest.is_empty() || has_value => {
+            Command::Misused("which parameter?", "one that was set, for example `unset lambda`")
+        }
         ("fork", name) if is_path(name) => Command::Fork(name),
         ("fork", _) if rest.is_empty() || has_value || rest.starts_with('"') => {
             Command::Misused("under what name?", "one word, for example `fork before_the_turn`")
@@ -193,10 +200,21 @@ mod tests {
         assert_eq!(of("run until_then"), Some(Command::Run(Some("until_then"))));
         assert_eq!(of("set lambda = 4 s"), Some(Command::Set("lambda", "4 s")));
         assert_eq!(of("set cpt_2005.beta=30 deg"), Some(Command::Set("cpt_2005.beta", "30 deg")));
+        assert_eq!(of("unset lambda"), Some(Command::Unset("lambda")));
         assert_eq!(of("switch to main"), Some(Command::SwitchTo("main")));
         assert_eq!(of("plot chemical, depth to a.svg"), Some(Command::Plot("chemical, depth", Some("a.svg"))));
         assert_eq!(of("save test \"it turns\" to t.alb"), Some(Command::SaveTest("it turns", "t.alb")));
-        for misused in ["set lambda", "set 3 = 4", "fork", "plot", "save test turns", "run until", "reload box.alb"] {
+        for misused in [
+            "set lambda",
+            "set 3 = 4",
+            "unset",
+            "unset a = 3",
+            "fork",
+            "plot",
+            "save test turns",
+            "run until",
+            "reload box.alb",
+        ] {
             assert!(matches!(of(misused), Some(Command::Misused(..))), "{misused}");
         }
         for language in [
@@ -208,6 +226,7 @@ mod tests {
             "2 m",
             "",
             "set = 3",
+            "unset = 3",
             "why = 3",
             "fork = 2 m",
             "plot = 3 m",

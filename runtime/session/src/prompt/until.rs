@@ -2,7 +2,6 @@
 
 use super::command::TICKS_MAX;
 use super::{Answer, Line, Listener, Prompt, Say};
-use albacore_lang::prompt::Left;
 use albacore_machine::{Event, Machine};
 use albacore_program::Slot;
 use std::sync::atomic::AtomicBool;
@@ -98,11 +97,10 @@ impl Prompt {
         let known = self.known();
         let origin = self.origin();
         let asked = self.loaded.lines.read(&*self.loaded.files, text, &known, origin);
-        let is_condition = match &asked.line {
-            Some(Line::Value(drive)) => drive.value.as_ref().is_some_and(Left::is_condition),
-            _ => false,
-        };
-        if !is_condition {
+        // In brackets `for 10 s` belongs to the condition, and does not end the wait.
+        let waits = format!("wait until ({text})");
+        let read = self.loaded.lines.read(&*self.loaded.files, &waits, &known, origin);
+        let Some(Line::Statements(drive)) = read.line else {
             match asked.findings.is_empty() {
                 false => say(Say::Findings(&asked.findings, self.loaded.lines.sources())),
                 true => {
@@ -111,11 +109,6 @@ impl Prompt {
                     say(Say::Error("this is no condition", Some(help)));
                 }
             }
-            return None;
-        }
-        let read = self.loaded.lines.read(&*self.loaded.files, &format!("wait until {text}"), &known, origin);
-        let Some(Line::Statements(drive)) = read.line else {
-            say(Say::Findings(&read.findings, self.loaded.lines.sources()));
             return None;
         };
         let machine = match self.machine(&drive, &known) {
