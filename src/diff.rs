@@ -146,6 +146,7 @@ fn tell_ends(difference: &RunDifference, lines: &mut Lines) {
     }
     lines.add("");
     let end = |outcome: &str, reason: &str| match reason {
+        _ if outcome == "running" => "end not known".to_string(),
         "" => outcome.replace('_', " "),
         reason => format!("{} ({reason})", outcome.replace('_', " ")),
     };

@@ -87,6 +87,9 @@ impl Export {
         if plan.frame().is_none() {
             on_globe(formats)?;
         }
+        if formats.iter().any(|format| format.has_clock) {
+            past.warn_of_clock("its first tick is told as 1970-01-01T00:00:00Z");
+        }
         let epoch_ms = past.first_tick.map(|first| first.unix_ms());
         let exported = exported(&plan, &past.bytes, epoch_ms).map_err(|unreadable| {
             message::error(&unreadable.to_string(), None);

@@ -31,6 +31,11 @@ impl Moment {
         moment.filter(Moment::is_possible).ok_or_else(wrong)
     }
 
+    /// Whether it is one of the clock.
+    pub fn is_of_clock(self) -> bool {
+        matches!(self, Moment::OfDay(..))
+    }
+
     fn is_possible(&self) -> bool {
         match self {
             Moment::OfMission(at, _) => (0.0..=LAST_S).contains(at),

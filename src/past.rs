@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::plan::refused;
 use crate::run_folder::{JOURNAL, LEFT_BYTES_MAX, RECORD};
 use crate::{message, run_folder};
-use albacore_session::journal::{Ending, JournalHeader, Reader};
-use albacore_session::{Changes, PastRun, Plan, Script, read_file};
+use albacore_session::journal::{Ending, JournalHeader, Reader, Unreadable};
+use albacore_session::{Changes, PastRun, Plan, PlanError, Script, read_file};
 use std::path::{Path, PathBuf};
 
 /// So many folders are named in a message at most.
@@ -20,8 +20,10 @@ pub struct PastJournal {
     pub bytes: Vec<u8>,
     /// What was run.
     pub header: JournalHeader,
-    /// When its first tick was, if its record tells.
+    /// When its first tick was, if its record tells; of a program that was killed, when it began.
     pub first_tick: Option<Utc>,
+    /// The record tells when the program began, and not when the first tick was.
+    began_alone: bool,
     /// The script as it was named when it was run, where it is still there.
     pub script: Option<PathBuf>,
 }
@@ -43,14 +45,30 @@ impl PastJournal {
         let header = match Reader::new(&bytes) {
             Ok(reader) => reader.header().clone(),
             Err(unreadable) => {
-                message::error(&format!("`{}`: {unreadable}", journal.display()), None);
+                let help = match unreadable {
+                    Unreadable::Version(_) => {
+                        "a `trace.txt` and a `run.json` beside it are texts, and tell what happened"
+                    }
+                    _ => {
+                        "name the folder of a run; where its journal is lost, `trace.txt` and `run.json` in it tell what happened"
+                    }
+                };
+                message::error(&format!("`{}`: {unreadable}", journal.display()), Some(help));
                 return Err(Exit::Failed);
             }
         };
         let told = run_folder::told(&journal.with_file_name(RECORD));
-        let first_tick = told["first_tick"].as_str().and_then(Utc::read);
+        let [first_tick, began] = ["first_tick", "started"].map(|moment| told[moment].as_str().and_then(Utc::read));
+        let began_alone = first_tick.is_none() && began.is_some();
         let script = told["scripts"][0]["name"].as_str().and_then(|script| found(Path::new(script), &journal));
-        Ok(PastJournal { path: path.to_path_buf(), bytes, header, first_tick, script })
+        Ok(PastJournal {
+            path: path.to_path_buf(),
+            bytes,
+            header,
+            first_tick: first_tick.or(began),
+            began_alone,
+            script,
+        })
     }
 
     /// Reads it from its beginning.
@@ -70,7 +88,18 @@ impl PastJournal {
     pub fn changed(&self, changes: &Changes, project: Option<&Path>) -> Result<(Script, Plan), Exit> {
         let named = project.map(|folder| folder.join("script.alb"));
         let changes = Changes { beside: named.as_deref().or(self.script.as_deref()), ..*changes };
-        let (script, plan) = Plan::of_journal(&self.header, &changes).map_err(|error| refused(&error))?;
+        let planned = Plan::of_journal(&self.header, &changes).map_err(|error| {
+            let exit = refused(&error);
+            // The scripts were sound when they were run.
+            if changes.is_empty() && matches!(error, PlanError::Script(..)) {
+                message::warning(
+                    "the journal holds the scripts, and not the files of data that they read",
+                    "`--project FOLDER` names the folder of the project, where they lie by now",
+                );
+            }
+            exit
+        });
+        let (script, plan) = planned?;
         if !changes.is_empty() {
             message::findings(&script.findings, &script.sources);
         }
@@ -93,6 +122,23 @@ impl PastJournal {
     pub fn warn_of_changes(&self, plan: &Plan) {
         for name in self.changed_since(plan) {
             message::warning(&format!("`{name}` is not what it was in the run"), "what is told is of what it is now");
+        }
+    }
+
+    /// Warns where times of the clock are not those of the run. `otherwise` is what is done where no clock is known.
+    pub fn warn_of_clock(&self, otherwise: &str) {
+        match self.first_tick {
+            Some(began) if self.began_alone => {
+                let help = format!("times of the clock count from when the program began, {}", began.time_of_day());
+                message::warning(
+                    "`run.json` does not tell when the first tick was: the program was killed, or runs still",
+                    &help,
+                );
+            }
+            Some(_) => {}
+            None => {
+                message::warning("when the run was is not known: no `run.json` beside the journal tells it", otherwise)
+            }
         }
     }
 

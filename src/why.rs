@@ -36,10 +36,13 @@ impl Why {
         let past = PastJournal::open(&self.run)?;
         let (_, plan) = past.plan(self.project.as_deref())?;
         past.warn_of_changes(&plan);
+        if self.at.is_some_and(Moment::is_of_clock) && past.first_tick.is_some() {
+            past.warn_of_clock("");
+        }
         let ticks = match self.at.map(|at| at.ticks(past.first_tick)) {
             Some(None) => {
                 let help = "give it as time of the run, such as `751s`";
-                message::error("no clock is known of this run: `run.json` is not beside the journal", Some(help));
+                message::error("no clock is known of this run: no `run.json` beside the journal tells it", Some(help));
                 return Err(Exit::Usage);
             }
             ticks => ticks.flatten(),
@@ -49,14 +52,20 @@ impl Why {
             && *ticks.start() >= explanation.ticks
         {
             let lasted = explanation.ticks as f64 / 10.0;
-            let (what, help) = match &explanation.ending {
-                Ending::Complete(_) => {
+            let is_whole = matches!(explanation.ending, Ending::Complete(_));
+            let (what, help) = match past.first_tick.filter(|_| self.at.is_some_and(Moment::is_of_clock)) {
+                Some(first) => {
+                    let [from, to] = [0.0, lasted].map(|at| first.after(at).time_of_day());
+                    let told = if is_whole { "the run went" } else { "the journal, which is not whole, goes" };
+                    (format!("{told} from {from} to {to} (UTC)"), "choose a time between")
+                }
+                None if is_whole => {
                     (format!("the run was over by then: it lasted {lasted:.1} s"), "choose an earlier time")
                 }
-                _ => (
-                    format!("the journal ends before: it holds {lasted:.1} s, and is not whole"),
-                    "choose an earlier time",
-                ),
+                None => {
+                    let what = format!("the journal ends before: it holds {lasted:.1} s, and is not whole");
+                    (what, "choose an earlier time")
+                }
             };
             message::error(&what, Some(help));
             return Err(Exit::Usage);

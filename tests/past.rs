@@ -104,7 +104,13 @@ fn what_is_no_run_is_said() {
     other[4] = 5;
     std::fs::write(folder.join("other"), other).unwrap();
     std::fs::write(folder.join("picture"), "<svg/>").unwrap();
-    let asked: [&[&str]; 13] = [
+    // A program that was killed leaves a record of its beginning.
+    let killed = folder.join("killed");
+    std::fs::create_dir(&killed).unwrap();
+    std::fs::copy(folder.join("cut"), killed.join("journal")).unwrap();
+    let began = r#"{"started": "2026-11-29T12:35:32.665Z", "first_tick": null, "outcome": "running"}"#;
+    std::fs::write(killed.join("run.json"), began).unwrap();
+    let asked: [&[&str]; 20] = [
         &["why", "cut", "--at", "50s"],
         &["replay", "."],
         &["why", "empty"],
@@ -118,10 +124,54 @@ fn what_is_no_run_is_said() {
         &["replay", "held", "--set", "patience=90s"],
         &["replay", "held", "--script", "none.alb"],
         &["replay", "held", "--mission", "none"],
+        &["replay", "damaged", "--json"],
+        &["diff", "held", "cut"],
+        &["why", "killed", "--at", "12:35:50"],
+        &["why", "killed", "--at", "11:00"],
+        &["why", "cut", "--at", "11:00"],
+        &["export", "killed", "--netcdf", "--out", "killed_too"],
+        &["export", "cut", "--netcdf", "--out", "cut_too"],
     ];
     let all: String = asked.iter().map(|arguments| told(&folder, arguments)).collect();
     insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!("what_is_no_run", all) });
 }
+
+/// A journal holds its scripts, and not the files of data that they read: those may have been moved since.
+#[test]
+fn files_of_data_that_were_moved_are_asked_for() {
+    let folder = project("moved");
+    std::fs::copy("tests/scenario/bay.csv", folder.join("bay.csv")).unwrap();
+    std::fs::write(folder.join("bay.alb"), BAY).unwrap();
+    let (code, _, said) = albacore(&folder, &["run", "bay.alb", "--out", "dive"]);
+    assert_eq!(code, Some(0), "{said}");
+    std::fs::create_dir(folder.join("kept")).unwrap();
+    std::fs::rename(folder.join("bay.csv"), folder.join("kept/bay.csv")).unwrap();
+    for verb in ["replay", "why", "report"] {
+        let (code, _, said) = albacore(&folder, &[verb, "dive"]);
+        assert!(code == Some(3) && said.contains("there is no file `bay.csv`"), "{verb}: {said}");
+        assert!(said.contains("`--project FOLDER` names the folder"), "{verb}: {said}");
+        let (code, _, said) = albacore(&folder, &[verb, "dive", "--project", "kept"]);
+        assert_eq!(code, Some(0), "{verb}: {said}");
+    }
+    let (_, _, said) = albacore(&folder, &["replay", "dive", "--project", "kept", "--set", "depht=3m"]);
+    assert!(!said.contains("--project"), "{said}");
+}
+
+const BAY: &str = r#"
+mission look in bay within 2 min {
+    area op = rectangle(center: 36°10.7'N 75°44.4'W, along: 0 deg, length: 400 m, width: 400 m)
+    limits { altitude >= 1 m, speed <= 2.5 m/s }
+    requires { position, course, heading fresh 5 s, else abort }
+    recovery within 1 min { goto op.center }
+    with depth 2 m, speed 2 m/s
+    steer 0 deg for 5 s
+}
+
+scenario bay {
+    bottom_grid("bay.csv")
+    vehicle(kinematic, start: 36°10.7'N 75°44.4'W, depth: 2 m)
+}
+"#;
 
 /// A log of the field, from another recorder: its columns by their names, on the globe, and as a log of MOOS.
 #[test]

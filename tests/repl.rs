@@ -89,7 +89,7 @@ fn a_run_that_is_over_is_gone_through() {
     std::fs::remove_file(folder.join("patrol.alb")).unwrap();
     let lines = "run until back\nwhy\nposition\nlegs\nlet home = op.center\nrun 10 s\ndistance(position, home)\nback 20 s\n\
                  goto home\nstart\nset patience = 12 s\nfork kept\nreload\nplot altitude\nwhy 5 s\nrun\nwhy\nrun\n\
-                 switch to kept\nset patience = 60 s\nrun\nwhy\nsave test \"x\" to x.alb\n";
+                 switch to kept\nset patience = 60 s\nrun\nwhy\nset patience = 5 s\nwhy 25 s\nsave test \"x\" to x.alb\n";
     for named in ["dive", "dive/journal"] {
         let out = out("past");
         let mut child = session(&[named], &out).current_dir(&folder).spawn().unwrap();

@@ -61,7 +61,11 @@ fn case(out: &mut String, test: &Outcome) {
             test.failures.iter().flat_map(|wrong| wrong.text.split('\n')).map(escaped).collect();
         let kept = test.kept.iter().flat_map(|kept| kept.lines());
         lines.extend(kept.map(|line| escaped(line.strip_prefix(MARGIN).unwrap_or(&line))));
-        let message = format!("{}  {}", escaped(&test.place), lines.first().map_or("", String::as_str));
+        let (place, first) = (escaped(&test.place), lines.first().map_or("", String::as_str));
+        // What is said of an `expect` begins with its own place.
+        let script = place.rsplit_once(':').map_or("", |(script, _)| script);
+        let has_place = !script.is_empty() && first.strip_prefix(script).is_some_and(|rest| rest.starts_with(':'));
+        let message = if has_place { first.to_string() } else { format!("{place}  {first}") };
         let text = lines.join("\n");
         out.push_str(&format!("      <failure message=\"{}\">{text}</failure>\n", message.trim_end()));
     }

@@ -27,6 +27,8 @@ pub struct Format {
     pub file: &'static str,
     /// Whether it has places on the globe alone: a mission in a plane of its own cannot be written in it.
     pub is_on_globe: bool,
+    /// Whether it tells when by the clock something was.
+    pub has_clock: bool,
     /// The file's bytes.
     pub make: fn(&Exported) -> Vec<u8>,
 }
@@ -38,6 +40,7 @@ pub const FORMATS: [Format; 7] = [
         about: "A table with a row for each tick: all samples, commands, behaviors, reports and, in simulation, the truth",
         file: "track.csv",
         is_on_globe: false,
+        has_clock: false,
         make: csv::make,
     },
     Format {
@@ -45,6 +48,7 @@ pub const FORMATS: [Format; 7] = [
         about: "Track, areas and reports as GeoJSON, for QGIS and web maps",
         file: "track.geojson",
         is_on_globe: true,
+        has_clock: true,
         make: geojson::make,
     },
     Format {
@@ -52,6 +56,7 @@ pub const FORMATS: [Format; 7] = [
         about: "Track in time, areas and reports as KML, for Google Earth",
         file: "track.kml",
         is_on_globe: true,
+        has_clock: true,
         make: kml::make,
     },
     Format {
@@ -59,6 +64,7 @@ pub const FORMATS: [Format; 7] = [
         about: "Track in time, areas and reports as GPX, for chart plotters",
         file: "track.gpx",
         is_on_globe: true,
+        has_clock: true,
         make: gpx::make,
     },
     Format {
@@ -66,6 +72,7 @@ pub const FORMATS: [Format; 7] = [
         about: "All columns as a trajectory by the CF conventions, in NetCDF classic",
         file: "track.nc",
         is_on_globe: false,
+        has_clock: true,
         make: netcdf::make,
     },
     Format {
@@ -73,6 +80,7 @@ pub const FORMATS: [Format; 7] = [
         about: "All columns and events as MCAP with JSON messages, for Foxglove",
         file: "track.mcap",
         is_on_globe: false,
+        has_clock: true,
         make: mcap::make,
     },
     Format {
@@ -80,6 +88,7 @@ pub const FORMATS: [Format; 7] = [
         about: "All columns and events as a log of MOOS",
         file: "track.alog",
         is_on_globe: false,
+        has_clock: true,
         make: alog::make,
     },
 ];

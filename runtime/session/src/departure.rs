@@ -12,6 +12,9 @@ use albacore_trace::{Step, TickRecord, TriedCondition, deeds};
 use albacore_vehicle::Command;
 use serde::Serialize;
 
+/// So many digits more than usual tell two commands apart.
+const COMMAND_DIGITS_MAX: u8 = 13;
+
 /// What a mission that was changed would have done.
 #[derive(Debug, Serialize)]
 pub struct Departure {
@@ -27,8 +30,8 @@ pub struct Departure {
     pub stopped_at: Option<u64>,
     /// How the replayed mission ended by the end of the journal, if it did.
     pub outcome: Option<&'static str>,
-    /// How the journal ends.
-    #[serde(skip)]
+    /// How the journal ends: `complete`, or where it is cut short or damaged.
+    #[serde(rename = "journal", serialize_with = "crate::replay::as_text")]
     pub ending: Ending,
 }
 
@@ -82,8 +85,7 @@ pub fn depart(journal: &[u8], original: &Plan, changed: &Plan) -> Result<Departu
         ticks += u64::from(is_tick);
         let mut theirs = (*step.record).clone();
         if is_tick && commanded.is_none() && theirs.command != step.command {
-            let words = |command: Option<Command>| command.map_or("nothing".to_string(), |command| told(&command));
-            commanded = Some((theirs.tick, [words(theirs.command), words(step.command)]));
+            commanded = Some((theirs.tick, told_apart([theirs.command, step.command])));
         }
         // The end of the run is none of a mission that goes on, or was over before.
         let mut ours = TickRecord { events: step.events, command: step.command, ..theirs.clone() };
@@ -117,6 +119,13 @@ pub fn depart(journal: &[u8], original: &Plan, changed: &Plan) -> Result<Departu
         outcome: replay.machine().outcome().map(albacore_machine::Outcome::name),
         ending: replay.into_ending(),
     })
+}
+
+/// Two commands in words, with as many digits as it takes to see that they differ.
+fn told_apart(both: [Option<Command>; 2]) -> [String; 2] {
+    let words = |digits| both.map(|command| command.map_or("nothing".to_string(), |command| told(&command, digits)));
+    let different = (0..COMMAND_DIGITS_MAX).map(words).find(|[run, replay]| run != replay);
+    different.unwrap_or_else(|| words(COMMAND_DIGITS_MAX))
 }
 
 fn reader(journal: &[u8]) -> Result<Reader<'_>, PlanError> {

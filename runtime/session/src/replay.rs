@@ -8,7 +8,7 @@ use albacore_program::Program;
 use albacore_trace::journal::{Ending, Entry, Gap, JournalHeader, Reader};
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::Command;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -130,13 +130,28 @@ pub struct Repeated {
     pub ticks: u64,
     /// The first of them in which the machine did otherwise than the journal says.
     pub differs_at: Option<u64>,
-    /// The digest of what was replayed.
+    /// The digest of what was replayed, as a run tells it.
+    #[serde(serialize_with = "as_hex")]
     pub digest: u64,
     /// Whether ticks are missing, so that the digest is not that of the run.
     pub has_gaps: bool,
-    /// How the journal ends.
-    #[serde(skip)]
+    /// How the journal ends: `complete`, or where it is cut short or damaged.
+    #[serde(rename = "journal", serialize_with = "as_text")]
     pub ending: Ending,
+}
+
+/// A digest as a run tells it: readers of JSON round numbers as large.
+fn as_hex<S: Serializer>(digest: &u64, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&format_args!("{digest:016x}"))
+}
+
+/// How a journal ends, in words.
+pub(crate) fn as_text<S: Serializer>(ending: &Ending, to: S) -> Result<S::Ok, S::Error> {
+    match ending {
+        Ending::Complete(_) => to.serialize_str("complete"),
+        Ending::CutShort(flaw) => to.collect_str(&format_args!("cut short {flaw}")),
+        Ending::Damaged(flaw) => to.collect_str(&format_args!("damaged {flaw}")),
+    }
 }
 
 impl Repeated {

@@ -29,7 +29,7 @@ pub struct Explanation {
     /// The first tick in which its scripts do not do what it says: what is told from there on is not of the run.
     pub differs_at: Option<u64>,
     /// How it ends.
-    #[serde(skip)]
+    #[serde(rename = "journal", serialize_with = "crate::replay::as_text")]
     pub ending: Ending,
 }
 
@@ -113,7 +113,7 @@ pub fn explain(journal: Reader<'_>, plan: &Plan, ticks: Option<RangeInclusive<u6
         let conditions = trace.lines().tried(&tried);
         let inputs = inputs(replay.machine());
         if moment.is_none() && ticks.is_some() && is_tick {
-            let (under_way, command) = (trace.lines().under_way(), command.map(|command| told(&command)));
+            let (under_way, command) = (trace.lines().under_way(), command.map(|command| told(&command, 0)));
             let (conditions, inputs) = (conditions.clone(), inputs.clone());
             let held = matches!(replay.machine().state().phase, Phase::Holding(_));
             moment = Some(Moment { tick: record.tick, under_way, held, command, conditions, inputs });
@@ -157,13 +157,13 @@ fn is_read(input: &InputAge, conditions: &[TriedCondition]) -> bool {
     conditions.iter().filter(|condition| condition.holds).any(|condition| names(&condition.values))
 }
 
-/// A command in words.
-pub(crate) fn told(command: &Command) -> String {
+/// A command in words, with so many digits more than usual.
+pub(crate) fn told(command: &Command, more: u8) -> String {
     use albacore_vehicle::Vertical::{Altitude, Depth};
     let vertical = match command.vertical {
-        Depth(depth) => format!("depth {} m", number::fixed(depth, 2)),
-        Altitude(altitude) => format!("altitude {} m", number::fixed(altitude, 2)),
+        Depth(depth) => format!("depth {} m", number::fixed(depth, 2 + more)),
+        Altitude(altitude) => format!("altitude {} m", number::fixed(altitude, 2 + more)),
     };
-    let heading = number::fixed(math::degrees(command.heading.radians()), 2);
-    format!("heading {heading} deg, {} m/s through the water, {vertical}", number::fixed(command.speed, 3))
+    let heading = number::fixed(math::degrees(command.heading.radians()), 2 + more);
+    format!("heading {heading} deg, {} m/s through the water, {vertical}", number::fixed(command.speed, 3 + more))
 }

@@ -184,7 +184,7 @@ impl Journal {
 
 impl std::fmt::Display for Flaw {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "at byte {}, where {} was expected", self.at, self.expected)
+        write!(f, "at byte {}: expected {}", self.at, self.expected)
     }
 }
 

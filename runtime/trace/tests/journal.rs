@@ -154,12 +154,12 @@ fn what_is_repeated_left_out_or_added_is_noticed() {
         other => panic!("{other:?}"),
     };
     let second = ends[1];
-    let expected = format!("at byte {second}, where the record of tick 1 was expected");
+    let expected = format!("at byte {second}: expected the record of tick 1");
     assert_eq!(damage(&[header, record(0), record(0)]), expected);
     assert_eq!(damage(&[header, record(0), record(2)]), expected);
     assert_eq!(damage(&[header, record(0), &header[8..]]), expected);
     let end = good.len();
-    let expected = format!("at byte {end}, where nothing more, behind the end of the run was expected");
+    let expected = format!("at byte {end}: expected nothing more, behind the end of the run");
     assert_eq!(damage(&[&good, record(0)]), expected);
     // What a disk leaves that lost its power.
     assert!(damage(&[&good[..second], &[0; 4096]]).contains("a length that agrees with its check"));
@@ -168,7 +168,7 @@ fn what_is_repeated_left_out_or_added_is_noticed() {
 #[test]
 fn what_is_no_journal_is_said_to_be_none() {
     let said = |bytes: &[u8]| Journal::read(bytes).unwrap_err().to_string();
-    assert_eq!(said(b""), "the journal is cut short at byte 0, where the beginning of a journal was expected");
+    assert_eq!(said(b""), "the journal is cut short at byte 0: expected the beginning of a journal");
     assert!(said(b"mission box").starts_with("this is no journal, or a damaged one: at byte 0"));
     let expected = "the journal has the form of version 7, and this albacore reads version 6 alone: read it with the albacore that wrote it";
     assert_eq!(said(b"ALBJ\x07\0\0\0"), expected);

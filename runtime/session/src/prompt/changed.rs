@@ -61,7 +61,10 @@ impl Prompt {
     /// Reads the script again, and runs its mission again if it is under way.
     fn change(&mut self, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
         let Some(before) = self.load_again(say) else { return Answer::Wrong };
-        let Some(began) = self.now.task.as_ref().filter(|task| task.is_mission()).map(|task| task.began) else {
+        let under_way = self.now.task.as_ref().filter(|task| task.is_mission()).map(|task| task.began);
+        // A run that is over has its mission alone, which is not begun again.
+        let over = self.now.ended.as_ref().filter(|_| self.now.vehicle.is_past()).map(|ended| ended.began);
+        let Some(began) = under_way.or(over) else {
             say(Say::Text("from the next `start` on"));
             return Answer::Done;
         };

@@ -209,6 +209,7 @@ mod tests {
             "set 3 = 4",
             "unset",
             "unset a = 3",
+            "compare",
             "fork",
             "plot",
             "save test turns",
@@ -230,7 +231,6 @@ mod tests {
             "why = 3",
             "fork = 2 m",
             "plot = 3 m",
-            "compare",
         ] {
             assert_eq!(of(language), None, "{language}");
         }

@@ -47,7 +47,7 @@ impl Prompt {
             ));
         };
         let Some(ended) = self.now.ended.as_ref().filter(|_| self.now.task.is_none()) else {
-            return Err(wrong("the mission has not come to an end", "`start` and `run` let it"));
+            return Err(wrong("the mission has not come to an end", "`run` lets it, once `start` has begun it"));
         };
         if ended.began > FIRST_TICK {
             let help = "open the prompt anew, and begin with `start`";
