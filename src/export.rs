@@ -88,7 +88,8 @@ impl Export {
             on_globe(formats)?;
         }
         if formats.iter().any(|format| format.has_clock) {
-            past.warn_of_clock("its first tick is told as 1970-01-01T00:00:00Z");
+            past.warn_of_clock();
+            past.warn_of_no_clock("its first tick is told as 1970-01-01T00:00:00Z");
         }
         let epoch_ms = past.first_tick.map(|first| first.unix_ms());
         let exported = exported(&plan, &past.bytes, epoch_ms).map_err(|unreadable| {

@@ -125,20 +125,21 @@ impl PastJournal {
         }
     }
 
-    /// Warns where times of the clock are not those of the run. `otherwise` is what is done where no clock is known.
-    pub fn warn_of_clock(&self, otherwise: &str) {
-        match self.first_tick {
-            Some(began) if self.began_alone => {
-                let help = format!("times of the clock count from when the program began, {}", began.time_of_day());
-                message::warning(
-                    "`run.json` does not tell when the first tick was: the program was killed, or runs still",
-                    &help,
-                );
-            }
-            Some(_) => {}
-            None => {
-                message::warning("when the run was is not known: no `run.json` beside the journal tells it", otherwise)
-            }
+    /// Warns where times of the clock are about right alone: nobody has written when the first tick was.
+    pub fn warn_of_clock(&self) {
+        if let Some(began) = self.first_tick.filter(|_| self.began_alone) {
+            let help = format!("times of the clock count from when the program began, {}", began.time_of_day());
+            message::warning(
+                "`run.json` does not tell when the first tick was: the program was killed, or runs still",
+                &help,
+            );
+        }
+    }
+
+    /// Warns where no clock is known, and of what is done without.
+    pub fn warn_of_no_clock(&self, otherwise: &str) {
+        if self.first_tick.is_none() {
+            message::warning("when the run was is not known: no `run.json` beside the journal tells it", otherwise);
         }
     }
 

@@ -35,7 +35,8 @@ impl RunReport {
         let past = PastJournal::open(&self.run)?;
         let (script, plan) = past.plan(self.project.as_deref())?;
         past.warn_of_changes(&plan);
-        past.warn_of_clock("the report has the run's own time alone");
+        past.warn_of_clock();
+        past.warn_of_no_clock("the report has the run's own time alone");
         let first_tick = past.first_tick.and_then(|moment| serde_json::to_value(moment).ok());
         let first_tick = first_tick.and_then(|moment| moment.as_str().map(str::to_string));
         let run = report(&script, &plan, &past.bytes, first_tick).map_err(|unreadable| {

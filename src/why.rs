@@ -36,9 +36,6 @@ impl Why {
         let past = PastJournal::open(&self.run)?;
         let (_, plan) = past.plan(self.project.as_deref())?;
         past.warn_of_changes(&plan);
-        if self.at.is_some_and(Moment::is_of_clock) && past.first_tick.is_some() {
-            past.warn_of_clock("");
-        }
         let ticks = match self.at.map(|at| at.ticks(past.first_tick)) {
             Some(None) => {
                 let help = "give it as time of the run, such as `751s`";
@@ -48,6 +45,10 @@ impl Why {
             ticks => ticks.flatten(),
         };
         let explanation = explain(past.reader()?, &plan, ticks.clone()).map_err(|error| refused(&error))?;
+        // Of a moment in which nothing was decided the clock is told, too.
+        if self.at.is_some_and(|at| at.is_of_clock() || explanation.decisions.is_empty()) {
+            past.warn_of_clock();
+        }
         if let Some(ticks) = &ticks
             && *ticks.start() >= explanation.ticks
         {

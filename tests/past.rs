@@ -110,7 +110,7 @@ fn what_is_no_run_is_said() {
     std::fs::copy(folder.join("cut"), killed.join("journal")).unwrap();
     let began = r#"{"started": "2026-11-29T12:35:32.665Z", "first_tick": null, "outcome": "running"}"#;
     std::fs::write(killed.join("run.json"), began).unwrap();
-    let asked: [&[&str]; 20] = [
+    let asked: [&[&str]; 21] = [
         &["why", "cut", "--at", "50s"],
         &["replay", "."],
         &["why", "empty"],
@@ -128,6 +128,7 @@ fn what_is_no_run_is_said() {
         &["diff", "held", "cut"],
         &["why", "killed", "--at", "12:35:50"],
         &["why", "killed", "--at", "11:00"],
+        &["why", "killed", "--at", "20s"],
         &["why", "cut", "--at", "11:00"],
         &["export", "killed", "--netcdf", "--out", "killed_too"],
         &["export", "cut", "--netcdf", "--out", "cut_too"],
