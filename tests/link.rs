@@ -65,7 +65,7 @@ fn a_mission_drives_a_vehicle_over_udp() {
 #[test]
 fn a_guest_drives_in_its_overrides_alone() {
     let folder = empty("guest");
-    let vehicle = Vehicle::serve("pty:?dialect=recon", &folder);
+    let vehicle = Vehicle::serve_at(SLOW_RATE, &format!("{EXCURSION}#bay"), "pty:?dialect=recon", &folder);
     let out = folder.join("run");
     let output = vehicle.mission(&["--mission", "visit", "--out"]).arg(&out).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}\n{}", stderr(&output), vehicle.said());

@@ -8,6 +8,8 @@ use std::time::Duration;
 
 pub const EXCURSION: &str = "tests/link/excursion.alb";
 pub const RATE: [&str; 2] = ["--rate", "50"];
+/// Where a bound of the mission's own decides: at [`RATE`] 10 s are 0.2 s of a computer that may have other things to do.
+pub const SLOW_RATE: [&str; 2] = ["--rate", "5"];
 
 pub fn albacore(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_albacore"));
@@ -57,6 +59,7 @@ pub struct Vehicle {
     pub log: PathBuf,
     /// Where the other end finds it.
     pub link: String,
+    rate: [&'static str; 2],
 }
 
 impl Vehicle {
@@ -67,11 +70,17 @@ impl Vehicle {
 
     #[track_caller]
     pub fn serve_world(world: &str, link: &str, folder: &Path) -> Self {
+        Vehicle::serve_at(RATE, world, link, folder)
+    }
+
+    /// At another rate, at which its missions are run too.
+    #[track_caller]
+    pub fn serve_at(rate: [&'static str; 2], world: &str, link: &str, folder: &Path) -> Self {
         let log = folder.join("vehicle.log");
         let file = std::fs::File::create(&log).unwrap();
         let mut command = albacore(&["vehicle", world, "--link", link, "--rows", "400x30x50"]);
-        let child = command.args(RATE).stderr(file).spawn().unwrap();
-        let mut vehicle = Vehicle { child, log, link: String::new() };
+        let child = command.args(rate).stderr(file).spawn().unwrap();
+        let mut vehicle = Vehicle { child, log, link: String::new(), rate };
         vehicle.says("link open at ");
         vehicle.says("leg 1 of 50");
         let said = vehicle.said();
@@ -91,7 +100,7 @@ impl Vehicle {
 
     pub fn mission(&self, more: &[&str]) -> Command {
         let mut command = albacore(&["run", EXCURSION, "--link", &self.link]);
-        command.args(RATE).args(more);
+        command.args(self.rate).args(more);
         command
     }
 
