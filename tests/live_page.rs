@@ -198,7 +198,7 @@ fn report_of(folder: &Path) -> Value {
 
 #[test]
 fn increments_add_up_to_the_report_of_the_finished_run() {
-    for (mission, rate) in [("missions/box.alb", "50"), ("missions/duck_single.alb", "400")] {
+    for (mission, rate) in [("missions/box.alb", "200"), ("missions/duck_single.alb", "1000")] {
         let folder = empty("live-adds-up");
         let out = folder.join("run");
         let run = Looked::begin(&folder, &[mission, "--rate", rate, "--out", out.to_str().unwrap()]);
@@ -295,7 +295,7 @@ fn whoever_is_no_browser_of_this_machine_is_refused_and_disturbs_nothing() {
 #[test]
 fn who_holds_a_connection_does_not_hold_the_end() {
     let folder = empty("live-held");
-    let run = Looked::begin(&folder, &["missions/box.alb", "--rate", "50", "--no-out"]);
+    let run = Looked::begin(&folder, &["missions/box.alb", "--rate", "400", "--no-out"]);
     let request = format!("GET /data?page=1 HTTP/1.1\r\nHost: localhost:{}\r\n\r\n", run.port);
     let mut held: Vec<TcpStream> = (0..8).map(|_| run.connect()).collect();
     held.iter_mut().step_by(2).for_each(|stream| stream.write_all(request.as_bytes()).unwrap());
@@ -310,7 +310,7 @@ fn who_looks_changes_no_byte() {
     let plain = albacore(&["run", "missions/box.alb", "--json", "--out"]).arg(run_of("plain")).output().unwrap();
     assert_eq!(plain.status.code(), Some(0), "{}", stderr(&plain));
     let out = run_of("looked");
-    let run = Looked::begin(&folder, &["missions/box.alb", "--rate", "100", "--json", "--out", out.to_str().unwrap()]);
+    let run = Looked::begin(&folder, &["missions/box.alb", "--rate", "400", "--json", "--out", out.to_str().unwrap()]);
     to_the_end(&run);
     assert_eq!(run.ends().0, Some(0));
     for file in ["journal", "trace.txt", "run.svg"] {
@@ -348,7 +348,7 @@ fn a_port_that_is_taken_costs_nobody_a_run() {
 fn a_terminal_is_told_how_a_run_stands() {
     let folder = empty("live-status");
     let mut terminal = Terminal::new();
-    let mut run = albacore(&["run", "missions/box.alb", "--live", "--rate", "50", "--no-out"]);
+    let mut run = albacore(&["run", "missions/box.alb", "--live", "--rate", "400", "--no-out"]);
     let mut run = run.stderr(terminal.line()).env("TERM", "xterm").spawn().unwrap();
     terminal.says(" m  altitude ");
     send("-INT", &run);

@@ -280,6 +280,10 @@ impl Text {
 
     /// Mix-ups of a name with another.
     fn name(&self, kind: Kind, text: usize, i: usize, edits: &mut Vec<Edit>) {
+        let kinds = [Kind::DepthForAltitude, Kind::HeadingForAngle, Kind::PointForVector, Kind::OtherType];
+        if !kinds.contains(&kind) {
+            return;
+        }
         let name = self.word(i);
         let is_place = self.word(i + 1) == ":" || matches!(self.word(i + 1), "=" | "." | "(" | "->");
         let after = self.word(i.wrapping_sub(1));

@@ -11,6 +11,7 @@ mod effects;
 mod known;
 mod pieces;
 mod ranges;
+mod slots;
 mod written;
 
 pub use claims::{Claim, Claims, Unit};

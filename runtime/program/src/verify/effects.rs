@@ -7,6 +7,7 @@ use super::written::written;
 use crate::{ABSOLUTE, ActivityKind, Addr, AreaOp, Body, Compute, ListOp, MapOp, Op, OverrideEnd, Param, Slot};
 use albacore_arithmetic::{Div, Interval, Operation, Operator, counted};
 use albacore_geometry::AREA_WIDTH_MIN_M;
+use std::rc::Rc;
 
 impl Ranges<'_> {
     /// One instruction that does not jump.
@@ -85,7 +86,7 @@ impl Ranges<'_> {
     }
 
     fn set(&self, known: &mut Known, to: Slot, word: Word) {
-        known.set(&self.ground, to, word, Implications::default());
+        known.set(&self.ground, to, word, self.ground.nothing());
     }
 
     /// Of all that an instruction writes nothing is known.
@@ -161,7 +162,7 @@ impl Ranges<'_> {
             let quotient = Div::rule([a, b.and(Interval::NOT_ZERO)]);
             self.set(known, to + 1, Word::of(quotient.or(Interval::exactly(0.0))));
             let implications = Implications { when: vec![(to + 1, quotient)], unless: Vec::new() };
-            known.set(&self.ground, to, Word::TRUTH, implications);
+            known.set(&self.ground, to, Word::TRUTH, Rc::new(implications));
         }
     }
 
@@ -182,13 +183,14 @@ impl Ranges<'_> {
             }
             Compute::Eq { to, .. } => return self.set(known, to, Word::TRUTH),
             Compute::Not { to, a } => {
-                let Implications { when, unless } = known.implications(&self.ground, a);
+                let Implications { when, unless } = (*known.implications(&self.ground, a)).clone();
                 (to, Implications { when: unless, unless: when })
             }
             Compute::And { to, a, b } | Compute::Or { to, a, b } => {
-                let (mut left, right) = (known.implications(&self.ground, a), known.implications(&self.ground, b));
-                left.when.extend(right.when);
-                left.unless.extend(right.unless);
+                let mut left = (*known.implications(&self.ground, a)).clone();
+                let right = known.implications(&self.ground, b);
+                left.when.extend_from_slice(&right.when);
+                left.unless.extend_from_slice(&right.unless);
                 match test {
                     Compute::And { .. } => left.unless.clear(),
                     _ => left.when.clear(),
@@ -197,7 +199,7 @@ impl Ranges<'_> {
             }
             _ => return,
         };
-        known.set(&self.ground, to, Word::TRUTH, without(implications, to));
+        known.set(&self.ground, to, Word::TRUTH, Rc::new(without(implications, to)));
     }
 
     /// The range of an operation's result, widened where it keeps growing from round to round: but no further than its operands can
@@ -269,10 +271,11 @@ impl Ranges<'_> {
         if known.word(&self.ground, x).is_zero() {
             return;
         }
-        let implied = known.implications(&self.ground, x).when;
+        let implications = known.implications(&self.ground, x);
+        let implied = implications.when.iter().copied();
         let stands = |slot: Slot| self.unit.standing.iter().any(|(at, words)| slot >= *at && slot - at < *words);
         let mut shows: Vec<(Slot, Interval)> = Vec::new();
-        for (of, range) in implied.into_iter().filter(|(of, _)| of & ABSOLUTE != 0 || stands(*of)) {
+        for (of, range) in implied.filter(|(of, _)| of & ABSOLUTE != 0 || stands(*of)) {
             match shows.iter_mut().find(|(other, _)| *other == of) {
                 Some((_, known)) => *known = known.and(range),
                 None => shows.push((of, range)),

@@ -1,9 +1,11 @@
 //! What is known of words at one place in the code.
 
 use super::claims::{Claim, Claims, Unit};
+use super::slots::{Slots, of_both};
 use crate::{ABSOLUTE, Program, Slot};
 use albacore_arithmetic::{INT_MAX, Interval, LARGEST};
-use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
 
 /// What is known of a word.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,8 +53,8 @@ pub(super) struct Implications {
 }
 
 impl Implications {
-    fn mentions(&self, slot: Slot) -> bool {
-        self.when.iter().chain(&self.unless).any(|(of, _)| *of == slot)
+    fn mentions(&self, is_it: impl Fn(Slot) -> bool) -> bool {
+        self.when.iter().chain(&self.unless).any(|(of, _)| is_it(*of))
     }
 
     fn forget(&mut self, is_gone: impl Fn(Slot) -> bool) {
@@ -65,27 +67,47 @@ impl Implications {
 pub(super) struct Ground<'p> {
     program: &'p Program,
     input_words: u32,
-    words: BTreeMap<Slot, Claim>,
+    words: Slots<Claim>,
     /// What claims and timers tell.
-    implications: BTreeMap<Slot, Implications>,
+    implications: Slots<Rc<Implications>>,
+    /// What nothing is known of.
+    nothing: Rc<Implications>,
 }
 
 impl<'p> Ground<'p> {
     pub fn new(program: &'p Program, claims: &Claims, unit: &Unit) -> Self {
         let input_words = program.inputs.iter().map(crate::Input::words).sum();
-        let mut ground = Ground { program, input_words, words: BTreeMap::new(), implications: BTreeMap::new() };
+        let mut ground = Ground {
+            program,
+            input_words,
+            words: Slots::default(),
+            implications: Slots::default(),
+            nothing: Rc::default(),
+        };
         for claim in claims.inputs.iter().chain(&unit.claims) {
             ground.words.insert(claim.slot, *claim);
             if let Some(flag) = claim.present {
-                ground.implications.entry(flag).or_default().when.push((claim.slot, claim.range));
+                ground.tell(flag, |told| told.push((claim.slot, claim.range)));
             }
         }
         ground
     }
 
+    /// Changes what a word tells when it is true.
+    fn tell(&mut self, flag: Slot, change: impl FnOnce(&mut Vec<(Slot, Interval)>)) {
+        let mut told = self.implications.get(flag).map_or_else(Implications::default, |told| (**told).clone());
+        change(&mut told.when);
+        self.implications.insert(flag, Rc::new(told));
+    }
+
+    /// What a word tells of which nothing is known.
+    pub fn nothing(&self) -> Rc<Implications> {
+        Rc::clone(&self.nothing)
+    }
+
     /// What a timer shows when it is true.
     pub fn timer(&mut self, timer: Slot, shows: Vec<(Slot, Interval)>) {
-        self.implications.entry(timer).or_default().when = shows;
+        self.tell(timer, |told| *told = shows);
     }
 
     fn word(&self, slot: Slot) -> Word {
@@ -95,7 +117,7 @@ impl<'p> Ground<'p> {
                 return Word::exactly(*value);
             }
         }
-        match self.words.get(&slot) {
+        match self.words.get(slot) {
             Some(claim) if claim.present.is_none() => Word { range: claim.range, is_whole: claim.is_whole },
             Some(claim) => Word { is_whole: claim.is_whole, ..Word::ANY },
             None => Word::ANY,
@@ -106,8 +128,8 @@ impl<'p> Ground<'p> {
 /// What is known at one place, beyond what the ground says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
-    words: BTreeMap<Slot, Word>,
-    implications: BTreeMap<Slot, Implications>,
+    words: Slots<Word>,
+    implications: Slots<Rc<Implications>>,
 }
 
 /// So many words at most are compared for what a word that differs tells of them.
@@ -115,90 +137,95 @@ const COMPARED_MAX: usize = 64;
 
 impl Known {
     pub fn word(&self, ground: &Ground, slot: Slot) -> Word {
-        self.words.get(&slot).copied().unwrap_or_else(|| ground.word(slot))
+        self.words.get(slot).copied().unwrap_or_else(|| ground.word(slot))
     }
 
     pub fn range(&self, ground: &Ground, slot: Slot) -> Interval {
         self.word(ground, slot).range
     }
 
-    pub fn implications(&self, ground: &Ground, slot: Slot) -> Implications {
-        self.implications.get(&slot).or_else(|| ground.implications.get(&slot)).cloned().unwrap_or_default()
+    pub fn implications(&self, ground: &Ground, slot: Slot) -> Rc<Implications> {
+        let told = self.implications.get(slot).or_else(|| ground.implications.get(slot));
+        Rc::clone(told.unwrap_or(&ground.nothing))
     }
 
     /// Words that are more, or other, than the ground says.
     pub fn is_tracked(&self, slot: Slot) -> bool {
-        self.words.contains_key(&slot)
+        self.words.contains(slot)
     }
 
     /// A word is written.
-    pub fn set(&mut self, ground: &Ground, slot: Slot, word: Word, implications: Implications) {
+    pub fn set(&mut self, ground: &Ground, slot: Slot, word: Word, implications: Rc<Implications>) {
         self.forget(ground, slot, 1);
         self.words.insert(slot, word);
-        if implications != Implications::default() {
+        if *implications != Implications::default() {
             self.implications.insert(slot, implications);
         }
     }
 
     /// Words are written of which nothing is known.
     pub fn forget(&mut self, ground: &Ground, from: Slot, words: u32) {
-        let to = from.saturating_add(words);
-        let is_gone = |slot: Slot| (from..to).contains(&slot);
-        self.drop_words(is_gone, from, to);
-        for (slot, claim) in ground.words.range(from..to) {
+        let gone = from..from.saturating_add(words);
+        self.words.remove(gone.clone());
+        self.forget_implications(|slot| gone.contains(&slot));
+        for (slot, claim) in ground.words.range(gone.clone()) {
             self.words.insert(*slot, Word { is_whole: claim.is_whole, ..Word::ANY });
         }
-        for (flag, implications) in &ground.implications {
-            let touched =
-                is_gone(*flag) || (from..to).len() < COMPARED_MAX && (from..to).any(|slot| implications.mentions(slot));
-            if touched && !self.implications.contains_key(flag) {
-                let mut left = if is_gone(*flag) { Implications::default() } else { implications.clone() };
+        for (flag, implications) in ground.implications.iter() {
+            let is_gone = |slot: Slot| gone.contains(&slot);
+            let touched = is_gone(*flag) || gone.len() < COMPARED_MAX && implications.mentions(is_gone);
+            if touched && !self.implications.contains(*flag) {
+                let mut left = if is_gone(*flag) { Implications::default() } else { (**implications).clone() };
                 left.forget(is_gone);
-                self.implications.insert(*flag, left);
+                self.implications.insert(*flag, Rc::new(left));
             }
         }
     }
 
-    fn drop_words(&mut self, is_gone: impl Fn(Slot) -> bool + Copy, from: Slot, to: Slot) {
-        let gone: Vec<Slot> = self.words.range(from..to).map(|(slot, _)| *slot).collect();
-        gone.into_iter().for_each(|slot| _ = self.words.remove(&slot));
+    /// What words tell that are gone, and what others tell of them, is not known any more.
+    fn forget_implications(&mut self, is_gone: impl Fn(Slot) -> bool) {
         self.implications.retain(|slot, implications| {
-            implications.forget(is_gone);
-            !is_gone(*slot)
+            if is_gone(slot) {
+                return false;
+            }
+            if implications.mentions(&is_gone) {
+                Rc::make_mut(implications).forget(&is_gone);
+            }
+            true
         });
     }
 
     /// Words that are as the ground says again: others may have written them, and have kept to it.
     pub fn grounded(&mut self, is_grounded: impl Fn(Slot) -> bool) {
-        self.words.retain(|slot, _| !is_grounded(*slot));
-        self.implications.retain(|slot, implications| {
-            implications.forget(&is_grounded);
-            !is_grounded(*slot)
-        });
+        self.words.retain(|slot, _| !is_grounded(slot));
+        self.forget_implications(is_grounded);
     }
 
     /// Words of a list of unknown length.
     pub fn forget_from(&mut self, ground: &Ground, from: Slot) {
-        self.grounded(|slot| slot >= from && slot & ABSOLUTE == 0 && !ground.words.contains_key(&slot));
+        self.grounded(|slot| slot >= from && slot & ABSOLUTE == 0 && !ground.words.contains(slot));
     }
 
     /// Copies words with all that is known of them.
     pub fn copy(&mut self, ground: &Ground, from: Slot, to: Slot, words: u32) {
-        let end = from.saturating_add(words);
-        let slots = self.words.range(from..end).map(|(slot, _)| *slot);
-        let mut slots: Vec<Slot> = slots.chain(ground.words.range(from..end).map(|(slot, _)| *slot)).collect();
+        let range: Range<Slot> = from..from.saturating_add(words);
+        let mut slots: Vec<Slot> = self.words.range(range.clone()).iter().map(|(slot, _)| *slot).collect();
+        slots.extend(ground.words.range(range.clone()).iter().map(|(slot, _)| *slot));
         if words <= 2 {
-            slots.extend(from..end);
+            slots.extend(range.clone());
         }
-        slots.extend(self.implications.range(from..end).map(|(slot, _)| *slot));
+        slots.extend(self.implications.range(range.clone()).iter().map(|(slot, _)| *slot));
         slots.sort_unstable();
         slots.dedup();
-        let moved = |slot: Slot| if (from..end).contains(&slot) { slot - from + to } else { slot };
-        let copied: Vec<(Slot, Word, Implications)> = slots
+        let moved = |slot: Slot| if range.contains(&slot) { slot - from + to } else { slot };
+        let copied: Vec<(Slot, Word, Rc<Implications>)> = slots
             .into_iter()
             .map(|slot| {
                 let mut implications = self.implications(ground, slot);
-                implications.when.iter_mut().chain(&mut implications.unless).for_each(|(of, _)| *of = moved(*of));
+                if implications.mentions(|of| range.contains(&of)) {
+                    let told = Rc::make_mut(&mut implications);
+                    told.when.iter_mut().chain(&mut told.unless).for_each(|(of, _)| *of = moved(*of));
+                }
                 (moved(slot), self.word(ground, slot), implications)
             })
             .collect();
@@ -208,7 +235,10 @@ impl Known {
         }
         for (slot, _, mut implications) in copied {
             // What was copied over is known no more; what was copied is known where it is now.
-            implications.forget(|of| (to..to.saturating_add(words)).contains(&of) && !self.words.contains_key(&of));
+            let is_gone = |of: Slot| (to..to.saturating_add(words)).contains(&of) && !self.words.contains(of);
+            if implications.mentions(is_gone) {
+                Rc::make_mut(&mut implications).forget(is_gone);
+            }
             self.implications.insert(slot, implications);
         }
     }
@@ -225,18 +255,20 @@ impl Known {
     #[must_use]
     pub fn assume(&mut self, ground: &Ground, slot: Slot, holds: bool) -> bool {
         let implications = self.implications(ground, slot);
-        let (range, implied) =
-            if holds { (Interval::NOT_ZERO, implications.when) } else { (Interval::exactly(0.0), implications.unless) };
-        self.learn(ground, slot, range) && implied.into_iter().all(|(of, range)| self.learn(ground, of, range))
+        let (range, implied) = match holds {
+            true => (Interval::NOT_ZERO, &implications.when),
+            false => (Interval::exactly(0.0), &implications.unless),
+        };
+        self.learn(ground, slot, range) && implied.iter().all(|(of, range)| self.learn(ground, *of, *range))
     }
 
     /// The values of a word where another is not 0; none where that cannot be.
     pub fn range_where(&self, ground: &Ground, slot: Slot, flag: Slot) -> Option<Interval> {
         self.word(ground, flag).and(Interval::NOT_ZERO)?;
         let mut word = self.word(ground, slot);
-        for (of, range) in self.implications(ground, flag).when {
-            let known = if of == slot { &mut word } else { &mut self.word(ground, of) };
-            *known = known.and(range)?;
+        for (of, range) in &self.implications(ground, flag).when {
+            let known = if *of == slot { &mut word } else { &mut self.word(ground, *of) };
+            *known = known.and(*range)?;
         }
         Some(word.range)
     }
@@ -244,14 +276,11 @@ impl Known {
     /// What is known where two ways meet. Where a word differs between them, its value tells which way was gone.
     pub fn join(&self, other: &Known, ground: &Ground) -> Known {
         let mut joined = Known::default();
-        let mut slots: Vec<Slot> = self.words.keys().chain(other.words.keys()).copied().collect();
-        slots.sort_unstable();
-        slots.dedup();
         let mut differing = Vec::new();
-        let mut deciding: Vec<Slot> = self.implications.keys().chain(other.implications.keys()).copied().collect();
-        for slot in slots {
+        let mut deciding = of_both(&self.implications, &other.implications);
+        for slot in of_both(&self.words, &other.words) {
             let (a, b) = (self.word(ground, slot), other.word(ground, slot));
-            joined.words.insert(slot, a.or(b));
+            joined.words.push(slot, a.or(b));
             if a != b {
                 differing.push(slot);
             }
@@ -269,7 +298,7 @@ impl Known {
                 when: self.implied(other, ground, &joined, slot, true, &differing),
                 unless: self.implied(other, ground, &joined, slot, false, &differing),
             };
-            joined.implications.insert(slot, implications);
+            joined.implications.push(slot, Rc::new(implications));
         }
         joined
     }
@@ -284,16 +313,15 @@ impl Known {
         holds: bool,
         differing: &[Slot],
     ) -> Vec<(Slot, Interval)> {
-        let ways: Vec<(&Known, Vec<(Slot, Interval)>)> = [self, other]
+        let told = [self, other].map(|way| way.implications(ground, slot));
+        let ways: Vec<(&Known, &[(Slot, Interval)])> = [self, other]
             .into_iter()
-            .filter(|way| {
+            .zip(&told)
+            .filter(|(way, _)| {
                 let range = way.range(ground, slot);
                 if holds { range.constant() != Some(0.0) } else { !range.excludes_zero() }
             })
-            .map(|way| {
-                let implications = way.implications(ground, slot);
-                (way, if holds { implications.when } else { implications.unless })
-            })
+            .map(|(way, told)| (way, if holds { told.when.as_slice() } else { &told.unless }))
             .collect();
         let mut of: Vec<Slot> = ways.iter().flat_map(|(_, implied)| implied.iter().map(|(of, _)| *of)).collect();
         if ways.len() == 1 {
@@ -320,8 +348,8 @@ impl Known {
 
     /// Words that are more than they were at this place before are taken to grow to the next of a few bounds.
     pub fn widen(&mut self, before: &Known) {
-        for (slot, word) in &mut self.words {
-            if let Some(was) = before.words.get(slot).filter(|was| was.range != word.range) {
+        for (slot, word) in self.words.iter_mut() {
+            if let Some(was) = before.words.get(*slot).filter(|was| was.range != word.range) {
                 word.range = widened(word.range, was.range);
             }
         }
@@ -329,8 +357,9 @@ impl Known {
 
     /// What is told that differs from what was told at this place before is told no more, so that an end is found.
     pub fn settle(&mut self, before: &Known) {
-        for (slot, implications) in &mut self.implications {
-            let told = before.implications.get(slot).cloned().unwrap_or_default();
+        for (slot, implications) in self.implications.iter_mut() {
+            let told = before.implications.get(*slot).cloned().unwrap_or_default();
+            let implications = Rc::make_mut(implications);
             implications.when.retain(|implied| told.when.contains(implied));
             implications.unless.retain(|implied| told.unless.contains(implied));
         }

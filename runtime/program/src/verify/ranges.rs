@@ -12,6 +12,7 @@ use super::written::{goes_on, written};
 use crate::{ABSOLUTE, Activity, Addr, Body, Compute, ListOp, Op, Program, Slot, When};
 use albacore_arithmetic::Interval;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// So often a result, and what ways into a place tell, is taken as it is; then what still grows is widened.
 pub(super) const PATIENCE: u32 = 3;
@@ -43,7 +44,10 @@ impl Program {
             own.dedup();
             let mut ranges = Ranges::new(self, claims, unit, &own);
             // What a timer shows is known when all code has been seen once, and of what watches a timer once more for each.
-            for holds_to_it in [false, false, false, true] {
+            let is_timer = |op: &Op| matches!(op, Op::Compute(Compute::HeldFor { .. } | Compute::Becomes { .. }));
+            let has_timers = self.ops[code_of(self, unit)].iter().any(is_timer);
+            let looks: &[bool] = if has_timers { &[false, false, false, true] } else { &[true] };
+            for &holds_to_it in looks {
                 ranges.holds_to_it = holds_to_it;
                 ranges.unit_code(&own, &guards)?;
             }
@@ -65,6 +69,12 @@ impl Program {
         }
         guards
     }
+}
+
+/// The instructions of a unit.
+fn code_of(program: &Program, unit: &Unit) -> Range<usize> {
+    let end = (unit.code.end as usize).min(program.ops.len());
+    (unit.code.start as usize).min(end)..end
 }
 
 type Guards = BTreeMap<Addr, (Slot, Vec<u32>)>;
@@ -99,8 +109,7 @@ enum Writer {
 
 impl<'p> Ranges<'p> {
     fn new(program: &'p Program, claims: &'p Claims, unit: &'p Unit, own: &[Addr]) -> Self {
-        let code = unit.code.start as usize..(unit.code.end as usize).min(program.ops.len());
-        let meets = program.ops[code].iter().filter_map(Op::jump).collect();
+        let meets = program.ops[code_of(program, unit)].iter().filter_map(Op::jump).collect();
         let mut typed: BTreeMap<Addr, Vec<(Slot, Word)>> = BTreeMap::new();
         for (at, claim) in &claims.typed {
             let word = Word { range: claim.range, is_whole: claim.is_whole };
