@@ -157,8 +157,22 @@ pub fn survive_file_limits() {
 #[cfg(not(unix))]
 pub fn survive_file_limits() {}
 
+/// Whether Ctrl-C means something else than the end of the program.
+static CTRL_C_IS_TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// The same flag, which every request to end raises too: what is done is stopped by either.
+pub fn ctrl_c_and_requests() -> Arc<AtomicBool> {
+    let interrupted = ctrl_c();
+    let ignored = ignored();
+    for request in requests().filter(|request| *request != signal::SIGINT && is_heard(*request, ignored)) {
+        let _ = signal_hook::flag::register(request, Arc::clone(&interrupted));
+    }
+    interrupted
+}
+
 /// A flag that Ctrl-C raises alone; whoever raises it lowers it again.
 pub fn ctrl_c() -> Arc<AtomicBool> {
+    CTRL_C_IS_TAKEN.store(true, Ordering::Relaxed);
     let interrupted = Arc::new(AtomicBool::new(false));
     // Without a handler Ctrl-C ends the program at once; nothing else is lost by its absence.
     if signal_hook::flag::register(signal::SIGINT, Arc::clone(&interrupted)).is_ok() {
@@ -230,6 +244,9 @@ fn listen() -> &'static Result<(), String> {
 
 /// A request has come.
 fn hear(request: i32) {
+    if request == signal::SIGINT && CTRL_C_IS_TAKEN.load(Ordering::Relaxed) {
+        return;
+    }
     RAISED.store(true, Ordering::Relaxed);
     let mut heard = heard();
     let (_, begun) = *heard.first.get_or_insert_with(|| (request, now()));

@@ -1,5 +1,6 @@
 //! The command line: one file a verb. All that concerns terminals, files written and exit codes is here.
 
+mod called;
 mod campaign;
 mod check;
 mod clock;
@@ -62,7 +63,7 @@ enum Verb {
     Fmt(fmt::Fmt),
     /// Run the tests of scripts.
     Test(test::Test),
-    /// Drive a simulated vehicle line by line.
+    /// Drive a vehicle line by line: a simulated one, or one at the end of a link.
     Repl(repl::Repl),
     /// Run a mission again on what its vehicle sensed, as it was or with changes.
     ///

@@ -1,6 +1,11 @@
-//! `albacore repl`: a simulated vehicle that does what is typed.
+//! `albacore repl`: a vehicle that does what is typed: a simulated one, or one at the end of a link.
 
+mod on_link;
+mod terminal;
+
+use crate::called::Call;
 use crate::campaign::seeds;
+use crate::clock;
 use crate::exit::Exit;
 use crate::interruption;
 use crate::made::{Comment, Made};
@@ -8,23 +13,25 @@ use crate::message;
 use crate::output;
 use crate::past::PastJournal;
 use crate::plan::{Choice, Faults};
+use crate::speaker::{hears_requests, no_thread};
 use crate::{disk, explain};
 use albacore_session::journal::is_beginning;
 use albacore_session::prompt::{Answer, OpenError, Opening, PastTicks, Prompt, Say, WordKind};
+use on_link::{Above, LinkedPrompt, Meanwhile};
 use rustyline::completion::Completer;
 use rustyline::error::ReadlineError;
 use rustyline::highlight::{CmdKind, Highlighter};
 use rustyline::hint::Hinter;
 use rustyline::history::MemHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
-use rustyline::{Context, Editor, Helper};
+use rustyline::{Context, Editor, ExternalPrinter, Helper};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::io::{BufRead, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A line that goes on in so many others is taken as it is: it is no script.
 const LINES_AT_ONCE_MAX: usize = 1_000;
@@ -38,7 +45,7 @@ const MAGIC_BYTES: u64 = 4;
 /// What to do about bytes that are no text.
 const NOT_UTF8: &str = "it is left out; type it again, or send it as UTF-8";
 
-/// Drive a simulated vehicle line by line; without a script, in still water.
+/// Drive a vehicle line by line: a simulated one, without a script in still water, or one at the end of a link.
 #[derive(clap::Args)]
 pub struct Repl {
     /// A script whose names are known, and whose mission `start` begins; or the folder of a run that is over, or its journal.
@@ -51,11 +58,21 @@ pub struct Repl {
     /// The seed of all that is random.
     #[arg(long, default_value_t = 1, value_parser = seeds::one, allow_negative_numbers = true)]
     seed: u64,
+    /// Drive a vehicle at the end of a link instead of a simulated one: `serial:/dev/ttyUSB0?dialect=recon`,
+    /// `udp:HOST:PORT?dialect=recon`. The script's mission says where on the globe. The first statement takes control.
+    #[arg(long, value_name = "URL", requires = "script", conflicts_with_all = ["scenario", "texts", "seed"])]
+    link: Option<String>,
+    /// How many times faster than real time the vehicle at the end of the link runs.
+    #[arg(long, value_name = "N", requires = "link", value_parser = clock::rate, allow_negative_numbers = true)]
+    rate: Option<f64>,
 }
 
 impl Repl {
     /// Does what is typed until the person leaves.
     pub fn run(&self) -> Exit {
+        if let Some(link) = &self.link {
+            return self.on_link(link).unwrap_or_else(|exit| exit);
+        }
         let faults = match self.faults.read() {
             Ok(faults) => faults,
             Err(exit) => return exit,
@@ -72,29 +89,60 @@ impl Repl {
             seed: past.as_ref().map_or(self.seed, |(_, seed)| *seed),
             set: self.choice.set.clone(),
             faults,
+            link: None,
             past: past.map(|(past, _)| Arc::new(past)),
         };
-        let mut prompt = match Prompt::open(opening) {
+        let prompt = match Prompt::open(opening) {
             Ok(prompt) => prompt,
-            Err(OpenError::File(error)) => {
-                message::error(&error.message, error.help.as_deref());
-                return Exit::Usage;
-            }
-            Err(OpenError::Script(found)) => {
-                message::findings(&found.0, &found.1);
-                return Exit::Script;
-            }
-            Err(OpenError::Asked(what, help)) => {
-                message::error(&what, help.as_deref());
-                return Exit::Usage;
+            Err(error) => return not_opened(error),
+        };
+        let prompt = Shared::Here(Rc::new((RefCell::new(prompt), interruption::ctrl_c())));
+        if std::io::stdin().is_terminal() { typed(&prompt, None) } else { piped(&prompt) }
+    }
+
+    /// Drives a vehicle at the end of a link, and gives it back.
+    fn on_link(&self, link: &str) -> Result<Exit, Exit> {
+        interruption::hear_faults();
+        let Some(path) = &self.script else { return Err(Exit::Usage) };
+        if is_run(path) {
+            message::error(
+                "a run that is over has no link",
+                Some("give the script of a mission, or leave out `--link`"),
+            );
+            return Err(Exit::Usage);
+        }
+        hears_requests()?;
+        let script = self.choice.script(path)?;
+        let mut call = Call::open(&script, path, self.choice.mission.as_deref(), link, self.rate)?;
+        call.hear(&interruption::flag())?;
+        let interrupted = interruption::ctrl_c_and_requests();
+        let stops = interruption::ctrl_z();
+        let opening = Opening {
+            script: self.script.clone(),
+            mission: self.choice.mission.clone(),
+            set: self.choice.set.clone(),
+            link: Some(call.url),
+            ..Opening::default()
+        };
+        let opened = LinkedPrompt::open(opening, call.vehicle, interrupted).map_err(|error| no_thread(&error))?;
+        let (prompt, meanwhile) = opened.map_err(not_opened)?;
+        let prompt = Shared::Linked(Rc::new((prompt, stops)));
+        let exit = match std::io::stdin().is_terminal() {
+            true => typed(&prompt, Some(meanwhile)),
+            false => {
+                meanwhile.print(Box::new(output::print_raw)).map_err(|error| no_thread(&error))?;
+                piped(&prompt)
             }
         };
-        let interrupted = interruption::ctrl_c();
-        if std::io::stdin().is_terminal() { typed(prompt, &interrupted) } else { piped(&mut prompt, &interrupted) }
+        match prompt {
+            Shared::Linked(prompt) => Ok(match prompt.0.leave() {
+                Exit::Well => exit,
+                failed => failed,
+            }),
+            Shared::Here(_) => Ok(exit),
+        }
     }
-}
 
-impl Repl {
     /// The run that is over, and its seed.
     fn past(&self, path: &Path) -> Result<(PastTicks, u64), Exit> {
         let Choice { mission, scenario, .. } = &self.choice;
@@ -119,9 +167,79 @@ fn is_run(path: &Path) -> bool {
     path.is_dir() || read.is_some() && begins.len() as u64 == MAGIC_BYTES && is_beginning(&begins)
 }
 
+/// Tells why a prompt cannot be opened.
+fn not_opened(error: OpenError) -> Exit {
+    match error {
+        OpenError::File(error) => {
+            message::error(&error.message, error.help.as_deref());
+            Exit::Usage
+        }
+        OpenError::Script(found) => {
+            message::findings(&found.0, &found.1);
+            Exit::Script
+        }
+        OpenError::Asked(what, help) => {
+            message::error(&what, help.as_deref());
+            Exit::Usage
+        }
+    }
+}
+
+/// A prompt, wherever it is, as those see it who type.
+#[derive(Clone)]
+enum Shared {
+    /// On this thread, with the flag that Ctrl-C raises.
+    Here(Rc<(RefCell<Prompt>, Arc<AtomicBool>)>),
+    /// On another, with the flag that Ctrl-Z raises.
+    Linked(Rc<(LinkedPrompt, Arc<AtomicBool>)>),
+}
+
+impl Shared {
+    fn greeting(&self) -> String {
+        match self {
+            Shared::Here(here) => here.0.borrow().greeting(),
+            Shared::Linked(linked) => linked.0.greeting().to_string(),
+        }
+    }
+
+    /// Does what was typed; none: the prompt is over.
+    fn enter(&self, text: &str) -> Option<Answer> {
+        match self {
+            Shared::Here(here) => Some(here.0.borrow_mut().enter(text, &here.1, &mut hear)),
+            Shared::Linked(linked) => linked.0.enter(text),
+        }
+    }
+
+    fn complete(&self, line: &str, at: usize) -> (usize, Vec<String>) {
+        match self {
+            Shared::Here(here) => here.0.borrow_mut().complete(line, at),
+            Shared::Linked(linked) => linked.0.complete(line, at),
+        }
+    }
+
+    /// Ctrl-C where a line is typed.
+    fn interrupt(&self) {
+        match self {
+            Shared::Linked(_) => _ = self.enter("stop"),
+            Shared::Here(_) => hear(Say::Text("`quit` or Ctrl-D leaves")),
+        }
+    }
+
+    /// Ctrl-Z stops nothing where a vehicle would be left without commands.
+    fn tell_of_ctrl_z(&self) {
+        if let Shared::Linked(linked) = self
+            && linked.1.swap(false, Ordering::Relaxed)
+        {
+            hear(Say::Text(
+                "Ctrl-Z would leave the vehicle without commands, and stops nothing here; `quit` or Ctrl-D leaves",
+            ));
+        }
+    }
+}
+
 /// Lines from a person.
-fn typed(prompt: Prompt, interrupted: &AtomicBool) -> Exit {
-    let prompt = Rc::new(RefCell::new(prompt));
+fn typed(prompt: &Shared, meanwhile: Option<Meanwhile>) -> Exit {
+    terminal::remember();
     let mut editor: Editor<Lines, MemHistory> = match Editor::with_history(Default::default(), MemHistory::new()) {
         Ok(editor) => editor,
         Err(error) => {
@@ -129,18 +247,30 @@ fn typed(prompt: Prompt, interrupted: &AtomicBool) -> Exit {
             return Exit::Failed;
         }
     };
-    editor.set_helper(Some(Lines(Rc::clone(&prompt))));
-    hear(Say::Text(&prompt.borrow().greeting()));
+    editor.set_helper(Some(Lines(prompt.clone())));
+    hear(Say::Text(&prompt.greeting()));
+    if let Some(meanwhile) = meanwhile {
+        let above: Above = match editor.create_external_printer() {
+            Ok(mut printer) => Box::new(move |lines| _ = printer.print(lines.to_string())),
+            // Only the input is a terminal.
+            Err(_) => Box::new(output::print_raw),
+        };
+        if let Err(error) = meanwhile.print(above) {
+            return no_thread(&error);
+        }
+    }
     loop {
-        match editor.readline("> ") {
+        let line = editor.readline("> ");
+        prompt.tell_of_ctrl_z();
+        match line {
             Ok(text) => {
                 // What cannot be remembered is typed again.
                 let _ = editor.add_history_entry(text.as_str());
-                if prompt.borrow_mut().enter(&text, interrupted, &mut hear) == Answer::Quit {
+                if prompt.enter(&text).is_none_or(|answer| answer == Answer::Quit) {
                     return Exit::Well;
                 }
             }
-            Err(ReadlineError::Interrupted) => hear(Say::Text("`quit` or Ctrl-D leaves")),
+            Err(ReadlineError::Interrupted) => prompt.interrupt(),
             Err(ReadlineError::Eof) => return Exit::Well,
             Err(ReadlineError::Io(error)) if error.kind() == std::io::ErrorKind::InvalidData => {
                 message::error("what was typed is no text in UTF-8", Some(NOT_UTF8));
@@ -154,7 +284,7 @@ fn typed(prompt: Prompt, interrupted: &AtomicBool) -> Exit {
 }
 
 /// Lines from a pipe or a file: the same, without the greeting; that one of them was wrong is told at the end.
-fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
+fn piped(prompt: &Shared) -> Exit {
     let mut exit = Exit::Well;
     let mut text = String::new();
     let mut input = std::io::stdin().lock();
@@ -182,10 +312,10 @@ fn piped(prompt: &mut Prompt, interrupted: &AtomicBool) -> Exit {
         if !over && is_short && Prompt::goes_on(&text) {
             continue;
         }
-        match prompt.enter(text.trim_end(), interrupted, &mut hear) {
-            Answer::Quit => return exit,
-            Answer::Wrong => exit = Exit::Script,
-            Answer::Done => {}
+        match prompt.enter(text.trim_end()) {
+            Some(Answer::Quit) | None => return exit,
+            Some(Answer::Wrong) => exit = Exit::Script,
+            Some(Answer::Done) => {}
         }
         text.clear();
         if over {
@@ -221,13 +351,13 @@ fn write(path: &Path, text: &str) {
 
 /// A line as it is typed: it goes on while a bracket is open, is completed by names, and shown in colour.
 #[derive(Helper)]
-struct Lines(Rc<RefCell<Prompt>>);
+struct Lines(Shared);
 
 impl Completer for Lines {
     type Candidate = String;
 
     fn complete(&self, line: &str, at: usize, _: &Context<'_>) -> rustyline::Result<(usize, Vec<String>)> {
-        Ok(self.0.borrow_mut().complete(line, at))
+        Ok(self.0.complete(line, at))
     }
 }
 
@@ -239,7 +369,7 @@ impl Hinter for Lines {
         if at < line.len() || !line.ends_with(|c: char| c.is_alphanumeric() || c == '_') {
             return None;
         }
-        let (begin, words) = self.0.borrow_mut().complete(line, at);
+        let (begin, words) = self.0.complete(line, at);
         match words.as_slice() {
             [only] => only.get(at - begin..).map(String::from),
             _ => None,

@@ -1,5 +1,6 @@
 //! `albacore run`: checks a mission and runs it.
 
+use crate::called::Call;
 use crate::campaign::seeds;
 use crate::clock::{self, Pace, Utc, now};
 use crate::exit::Exit;
@@ -10,11 +11,10 @@ use crate::plan::{Choice, Faults, refused, warn_of_faults_after};
 use crate::run_folder::{Left, Place, Record, RunFolder, RunRequest};
 use crate::speaker::{Speaker, hears_requests, no_thread};
 use crate::synced::Synced;
-use crate::vehicle::told;
 use crate::{interruption, message, output, zoom};
 use albacore_session::{
-    FieldLog, HostClock, LOG_BYTES_MAX, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, SOURCE_BYTES_MAX,
-    Script, Sink, Summary, WrittenUrl, column_names, read_file,
+    FieldLog, LOG_BYTES_MAX, Outcome, PICTURE, Plan, RECORDED, Run as MissionRun, Running, SOURCE_BYTES_MAX, Script,
+    Sink, Summary, column_names, read_file,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use std::borrow::Cow;
@@ -208,16 +208,9 @@ impl Run {
             bar.finish_and_clear();
             return Ok((plan, run.map_err(refused)?, Arc::default()));
         };
-        let usage = |error| told(&error, Exit::Usage);
-        let url = WrittenUrl::parse(link).map_err(usage)?;
-        let (file, mission) = (self.script.display().to_string(), self.choice.mission.as_deref());
-        let speaks = if url.is_silent() { Plan::dialect(script, &file, mission).map_err(refused)? } else { None };
-        let url = url.of_vehicle(speaks).map_err(usage)?;
-        let plan = Plan::on_link(script, &file, mission, &url.to_string()).map_err(refused)?;
-        let vehicle = albacore_session::call(&url, &plan, self.rate.unwrap_or(1.0), host_clock())
-            .map_err(|error| told(&error, Exit::Failed))?;
+        let mission = self.choice.mission.as_deref();
+        let Call { plan, vehicle, .. } = Call::open(script, &self.script, mission, link, self.rate)?;
         let run = MissionRun::on_link(&plan, self.seed, vehicle).map_err(refused)?;
-        message::write(&message::line(&format!("link open to {url}")));
         Ok((plan, run, Arc::default()))
     }
 
@@ -475,9 +468,4 @@ fn human(summary: &Summary, left: &Left) -> Lines {
 /// A value, or as much of it as is read at a glance; `--json` and the trace have all of it.
 fn bounded(value: &str) -> Cow<'_, str> {
     output::beginning(value, VALUE_CHARS_MAX).map_or(value.into(), |beginning| format!("{beginning}…").into())
-}
-
-/// The time of the machine that runs the mission.
-fn host_clock() -> HostClock {
-    Box::new(now)
 }

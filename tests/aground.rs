@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 use albacore_lang::source::Source;
-use albacore_session::{Faults, Outcome, Plan, Run, load, load_faults, load_text, run_test};
+use albacore_session::{Faults, Outcome, Plan, Run, Script, load, load_faults, load_text, run_test};
 use std::path::Path;
 
 const LIMITS: &str = "tests/aground/limits.alb";
@@ -23,26 +23,35 @@ const DEPTHS: [&str; 5] = ["stuck", "garbage", "wrong", "wrong(size: 3)", "wrong
 const MISSIONS: [&str; 2] = ["deep", "by_altitude"];
 const FROM: [&str; 4] = ["0 s", "12 s", "25 s", "60 s"];
 
-fn run(mission: &str, scenario: &str, faults: &[String]) -> (Outcome, String) {
+fn limits() -> Script {
     let script = load(Path::new(LIMITS), None, &[]).unwrap();
     assert!(script.is_sound() && script.findings.is_empty(), "{:?}", script.findings);
-    let plan = Plan::new(&script, LIMITS, Some(mission), Some(scenario)).unwrap();
+    script
+}
+
+/// A mission in a scenario of the script.
+fn plan(script: &Script, mission: &str, scenario: &str) -> Plan {
+    Plan::new(script, LIMITS, Some(mission), Some(scenario)).unwrap()
+}
+
+fn run(plan: &Plan, faults: &[String]) -> (Outcome, String) {
     let faults = load_faults(faults);
     assert!(faults.is_sound(), "{:?}", faults.findings);
-    let mut run = Run::new(&plan.with_faults(&Faults::of(&faults).unwrap()).unwrap(), 1).unwrap();
+    let mut run = Run::new(&plan.clone().with_faults(&Faults::of(&faults).unwrap()).unwrap(), 1).unwrap();
     let outcome = run.to_end();
     (outcome, run.trace().to_string())
 }
 
 /// Runs each mission over each bottom with each fault of a sensor, and gives what touched the bottom.
 fn aground(missions: [&str; 2], sensor: &str, disorders: &[&str]) -> Vec<String> {
-    let mut aground = Vec::new();
+    let (mut aground, script) = (Vec::new(), limits());
     for mission in missions {
         for scenario in ["level", "shallow", "rising"] {
+            let plan = plan(&script, mission, scenario);
             for disorder in disorders {
                 for from in FROM {
                     let fault = format!("{sensor}, {disorder}, from: {from}");
-                    let (outcome, trace) = run(mission, scenario, std::slice::from_ref(&fault));
+                    let (outcome, trace) = run(&plan, std::slice::from_ref(&fault));
                     if trace.contains("grounded at") || outcome == Outcome::Aground {
                         aground.push(format!("{mission} in {scenario}, {fault}: {outcome:?}"));
                     }
@@ -73,7 +82,7 @@ fn no_least_depth_leads_aground() {
     assert!(aground.is_empty(), "{} runs:\n{}", aground.len(), aground.join("\n"));
     for mission in missions {
         for scenario in ["level", "shallow", "rising"] {
-            let (_, trace) = run(mission, scenario, &[]);
+            let (_, trace) = run(&plan(&limits(), mission, scenario), &[]);
             assert!(!trace.contains("grounded at"), "{mission} in {scenario}:\n{trace}");
         }
     }
@@ -155,7 +164,7 @@ fn no_dive_that_is_told_too_deep_goes_on_without_an_altitude() {
 
 #[test]
 fn a_mission_that_waits_stays_where_it_began_to() {
-    let (outcome, trace) = run("waiting", "biased", &[]);
+    let (outcome, trace) = run(&plan(&limits(), "waiting", "biased"), &[]);
     assert_eq!(outcome, Outcome::Aborted, "{trace}");
     assert!(trace.contains("`flow` has never come") && !trace.contains("grounded at"), "{trace}");
 }

@@ -4,6 +4,7 @@ mod bounded;
 pub mod campaign;
 mod check;
 mod compatibility;
+mod control_claim;
 mod coverage;
 mod data;
 mod departure;

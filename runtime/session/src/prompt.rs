@@ -7,6 +7,7 @@ mod asked;
 mod changed;
 mod command;
 mod complete;
+mod linked;
 mod moment;
 mod opening;
 mod plot;
@@ -83,6 +84,8 @@ pub struct Prompt {
     forks: BTreeMap<String, Fork>,
     /// The person has interrupted what was being done.
     stopped: bool,
+    /// The vehicle at the end of the link is not heard any more.
+    has_lost_link: bool,
 }
 
 impl Prompt {
@@ -93,6 +96,13 @@ impl Prompt {
             let mission = self.loaded.mission.as_ref().map_or("", |program| &program.mission.name);
             return format!(
                 "a run of {mission} in {name}, seed {seed}, at its beginning: `run`, `run until X`, `why`; `help` tells the rest"
+            );
+        }
+        if let Some(link) = &self.opening.link {
+            let mission = self.loaded.mission.as_ref().map_or("", |program| &program.mission.name);
+            return format!(
+                "mission {mission} (begin it with `start`), vehicle at {link}, which drives itself: a statement takes control, `release` \
+                 and `quit` give it back; `help` tells what can be typed"
             );
         }
         let mission = match &self.loaded.mission {
@@ -134,6 +144,7 @@ impl Prompt {
             Command::Names => self.tell_names(say),
             Command::Start => return self.start(say),
             Command::Stop => self.stop(say),
+            Command::Release => return self.release(say),
             Command::Step(ticks) => self.drive(ticks, Until::Over, interrupted, say),
             Command::RunUntil(condition) => return self.run_until(condition, interrupted, say),
             Command::Why(time) => return self.why(time, say),
@@ -170,6 +181,10 @@ impl Prompt {
     }
 
     fn line(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        // The first moment of a vehicle at the end of a link need not tell all that its mission waits for.
+        if self.ahead.is_empty() && self.is_on_link() {
+            self.look_ahead();
+        }
         if let Some(answer) = self.told(text, say) {
             return answer;
         }
@@ -192,7 +207,7 @@ impl Prompt {
                 }
                 self.loaded.lines.put_in_force(in_force);
                 self.entered.push(text.to_string());
-                self.past.pin(&self.now);
+                self.pin_names();
             }
             Some(Line::Value(drive)) => match self.value(&drive, &known) {
                 Ok((program, value)) => {
@@ -202,7 +217,7 @@ impl Prompt {
                     } else {
                         say(Say::Text(&format!("{} = {text}", value.name)));
                         self.now.name(value);
-                        self.past.pin(&self.now);
+                        self.pin_names();
                     }
                 }
                 Err(what) => return wrong(&what, say),
@@ -210,6 +225,13 @@ impl Prompt {
             Some(Line::Statements(drive)) => return self.begin(text, drive, &known, interrupted, say),
         }
         Answer::Done
+    }
+
+    /// Keeps the moment in which something has got a name; but a tick that has been decided follows from earlier ones.
+    fn pin_names(&mut self) {
+        if !(self.is_on_link() && self.now.is_decided()) {
+            self.past.pin(&self.now);
+        }
     }
 
     /// The values that a line can name: what the running mission knows, innermost first, then what was named at the prompt.
@@ -250,7 +272,7 @@ impl Prompt {
         };
         let mut moment = self.now.clone();
         for _ in 0..LOOK_AHEAD_TICKS {
-            machine.step(&moment.snapshot);
+            machine.step(&Snapshot { control: Control::InControl, ..moment.snapshot.clone() });
             if let Some(&(id, base)) = machine.frames().first() {
                 let frame = machine.state().words.get(base as usize..).unwrap_or(&[]);
                 self.ahead = self.loaded.script.names_of(machine.program(), None, id, frame);
@@ -290,6 +312,7 @@ impl Prompt {
             return format!("`{name}` has not been sensed yet; let time go by with `run 30 s`");
         }
         match measurements::ALL.iter().find(|row| row.name == name).and_then(|row| row.instrument) {
+            _ if self.is_on_link() => format!("this vehicle does not tell `{name}` over its link"),
             Some(clause) => format!("this vehicle does not tell `{name}`: its scenario has no clause `{clause}`"),
             None => format!("no simulated vehicle tells `{name}`"),
         }
@@ -334,11 +357,14 @@ impl Prompt {
             Err(what) => return wrong(&what, say),
         };
         let left = drive.value.unwrap_or_else(Left::nothing);
-        self.now.task = Some(Task::line(machine, left, drive.vars, text));
+        self.now.put(Some(Task::line(machine, left, drive.vars, text)));
         self.past.pin(&self.now);
         if drive.endless {
             self.drive(1, Until::Over, interrupted, say);
-            say(Say::Text("goes on: `run 30 s` or `step` lets time go by, `stop` ends it"));
+            say(Say::Text(match self.is_on_link() {
+                true => "goes on while you type: `stop` ends it",
+                false => "goes on: `run 30 s` or `step` lets time go by, `stop` ends it",
+            }));
         } else {
             self.drive(TICKS_MAX, Until::Over, interrupted, say);
         }
@@ -358,9 +384,14 @@ impl Prompt {
         let name = program.mission.name.clone();
         match self.machine_for(program) {
             Ok(machine) => {
-                self.now.task = Some(Task::mission(machine, &name));
+                self.now.put(Some(Task::mission(machine, &name)));
                 self.past.pin(&self.now);
-                say(Say::Text(&format!("{name} begins: `run 5 min` or `step` lets time go by")));
+                say(Say::Text(&match self.is_on_link() {
+                    true => {
+                        format!("{name} begins, and goes on while you type: `run` waits for its end, `stop` ends it")
+                    }
+                    false => format!("{name} begins: `run 5 min` or `step` lets time go by"),
+                }));
                 Answer::Done
             }
             Err(what) => wrong(&what, say),
@@ -374,6 +405,9 @@ impl Prompt {
             say(Say::Error("this run is over: its vehicle does nothing more that it is told", Some(help)));
             return Some(Answer::Wrong);
         }
+        if self.is_on_link() {
+            return self.is_beyond_reach(say);
+        }
         if self.now.snapshot.control == Control::InControl {
             return None;
         }
@@ -383,7 +417,7 @@ impl Prompt {
     }
 
     fn stop(&mut self, say: &mut Listener) {
-        self.now.task = None;
+        self.now.put(None);
         self.past.pin(&self.now);
         say(Say::Text(&format!("{}  stopped", self.now.place())));
     }

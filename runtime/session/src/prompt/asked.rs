@@ -36,7 +36,7 @@ impl Prompt {
     pub(super) fn why(&mut self, time: Option<&str>, say: &mut Listener) -> Answer {
         // What has ended in this very tick was tried in it.
         let ended_now = self.now.ended.as_ref().is_some_and(|ended| ended.at == self.now.tick) || self.now.is_over;
-        let next = self.now.tick + u64::from(ended_now);
+        let next = self.now.tick + u64::from(ended_now || self.now.is_decided());
         let tick = match time {
             None => match next.checked_sub(1) {
                 Some(tick) => tick,

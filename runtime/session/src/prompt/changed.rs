@@ -60,6 +60,11 @@ impl Prompt {
 
     /// Reads the script again, and runs its mission again if it is under way.
     fn change(&mut self, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        if self.is_on_link() && self.now.task.as_ref().is_some_and(Task::is_mission) {
+            let help = "`stop` it, change it, and `start` it anew";
+            say(Say::Error("a mission under way on a vehicle is not changed", Some(help)));
+            return Answer::Wrong;
+        }
         let Some(before) = self.load_again(say) else { return Answer::Wrong };
         let under_way = self.now.task.as_ref().filter(|task| task.is_mission()).map(|task| task.began);
         // A run that is over has its mission alone, which is not begun again.

@@ -18,6 +18,7 @@ and beside it:
   run until X      until a condition holds, or a behavior of this name is entered
   back 30 s        go back in time; what was under way then is so again
   stop             end what is under way (Ctrl-C does so while it is driven)
+  release          give a vehicle at the end of a link back, and listen on
   behavior         what is active, from outside in
   why, why 751 s   the conditions that were tried in the last tick, or then: what they are made of
   set lambda = 4 s change a parameter: the mission is run again from its start to now
@@ -35,9 +36,9 @@ and beside it:
   quit             leave (Ctrl-D)";
 
 /// The words with which a command begins.
-pub const WORDS: [&str; 19] = [
-    "start", "step", "run", "back", "stop", "behavior", "why", "set", "unset", "reload", "fork", "switch", "forks",
-    "compare", "plot", "save", "explain", "names", "help",
+pub const WORDS: [&str; 20] = [
+    "start", "step", "run", "back", "stop", "release", "behavior", "why", "set", "unset", "reload", "fork", "switch",
+    "forks", "compare", "plot", "save", "explain", "names", "help",
 ];
 
 /// Time goes by this many ticks at most before the prompt comes back: ten hours.
@@ -52,6 +53,7 @@ pub enum Command<'a> {
     Names,
     Start,
     Stop,
+    Release,
     Step(u64),
     /// One of these words, and something with it that makes no sense: what is wrong, and how it is used.
     Misused(&'static str, &'static str),
@@ -92,6 +94,7 @@ pub fn of(text: &str) -> Option<Command<'_>> {
         ("names", "") => Command::Names,
         ("start", "") => Command::Start,
         ("stop", "") => Command::Stop,
+        ("release", "") => Command::Release,
         ("step", "") => Command::Step(1),
         ("step", count) if has_value => {
             let ticks = count.parse().ok().filter(|ticks| (1..=TICKS_MAX).contains(ticks));
@@ -153,7 +156,7 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             "for example `save test \"it turns\" to turns.alb`",
         )),
         ("explain", code) if has_value => Command::Explain(code),
-        ("quit" | "exit" | "help" | "names" | "stop" | "start" | "reload" | "forks", _) if has_value => {
+        ("quit" | "exit" | "help" | "names" | "stop" | "release" | "start" | "reload" | "forks", _) if has_value => {
             Command::Misused("this command stands alone on its line", "`help` lists the commands")
         }
         _ => return None,

@@ -1,7 +1,9 @@
 //! A moment of the prompt's vehicle, all of it one value; and the moments that were.
 
 use super::saved::reported;
-use super::vehicle::{PastVehicle, PromptVehicle};
+use super::vehicle::{LinkedVehicle, PastVehicle, PromptVehicle};
+use crate::control_claim::ControlClaim;
+use albacore_geometry::Heading;
 use albacore_lang::prompt::{Left, Named};
 use albacore_machine::{Event, Machine, Outcome};
 use albacore_navigation::Trust;
@@ -38,6 +40,12 @@ pub struct Moment {
     /// What the vehicle was last told.
     command: Option<Command>,
     trust: Trust,
+    /// Of a vehicle at the end of a link: whether it was asked to let us drive.
+    claim: ControlClaim,
+    /// ... what it is told while nothing is under way,
+    still: Option<Command>,
+    /// ... and whether what is done in this tick has been decided: its time goes on while nobody types.
+    is_decided: bool,
     /// What the vehicle gave notice of and what was noticed of it, with its tick, and is not told yet.
     notices: Vec<(u64, String)>,
 }
@@ -169,10 +177,19 @@ impl Moment {
         Ok(moment)
     }
 
+    /// The first tick that is heard of a vehicle at the end of a link, which drives itself.
+    pub fn of_link(vehicle: LinkedVehicle) -> Result<Self, VehicleError> {
+        let mut moment = Moment::at_start(PromptVehicle::Linked(vehicle))?;
+        moment.note();
+        Ok(moment)
+    }
+
     fn at_start(mut vehicle: PromptVehicle) -> Result<Self, VehicleError> {
         let mut snapshot = Snapshot::default();
         vehicle.sense(&mut snapshot)?;
-        vehicle.take_over()?;
+        if !vehicle.is_linked() {
+            vehicle.take_over()?;
+        }
         Ok(Moment {
             vehicle,
             snapshot,
@@ -184,17 +201,22 @@ impl Moment {
             is_over: false,
             command: None,
             trust: Trust::default(),
+            claim: ControlClaim::default(),
+            still: None,
+            is_decided: false,
             notices: Vec::new(),
         })
     }
 
-    fn sense(&mut self) -> Result<(), VehicleError> {
+    /// Waits for the vehicle's next tick, and senses it.
+    pub fn sense(&mut self) -> Result<(), VehicleError> {
         self.recent.push_back((self.tick, self.snapshot.samples.clone()));
         if self.recent.len() > RECENT_TICKS {
             self.recent.pop_front();
         }
         self.vehicle.sense(&mut self.snapshot)?;
         self.tick += 1;
+        self.is_decided = false;
         self.note();
         Ok(())
     }
@@ -243,6 +265,19 @@ impl Moment {
 
     /// Lets a tick go by; or, when what is under way ends in it, tells so: the tick then belongs to what comes next.
     pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<bool, VehicleError> {
+        if self.decide(say)? {
+            return Ok(true);
+        }
+        if self.vehicle.is_at_end() {
+            self.is_over = true;
+            return Ok(false);
+        }
+        self.sense()?;
+        Ok(false)
+    }
+
+    /// Decides what is done in this tick, and commands it; or, when what is under way ends in it, tells so.
+    pub fn decide(&mut self, say: &mut dyn FnMut(&str)) -> Result<bool, VehicleError> {
         for (tick, notice) in self.notices.drain(..) {
             say(&format!("{}  vehicle  {notice}", number::seconds(tick)));
         }
@@ -252,9 +287,16 @@ impl Moment {
             for (id, action) in task.machine.requests() {
                 self.vehicle.ask(id, action)?;
             }
+            if self.vehicle.is_linked()
+                && let Some(vehicle) = self.vehicle.port()
+            {
+                self.claim.ask_anew(&task.machine, vehicle)?;
+                self.claim.follow(&task.machine, vehicle)?;
+            }
             task.print_events(self.tick, say);
             task.assign(&mut self.names);
             if task.machine.outcome().is_some() {
+                self.still = None;
                 let left = task.left();
                 if let Some(task) = self.task.take()
                     && task.left.is_none()
@@ -268,40 +310,79 @@ impl Moment {
                 return Ok(true);
             }
         }
+        self.is_decided = true;
         // One that has taken control back, for a leak, does as it likes.
-        if self.snapshot.control == Control::InControl {
-            let command = command.unwrap_or_else(|| self.still());
+        if self.snapshot.control == Control::InControl
+            && let Some(command) = command.or_else(|| self.still())
+        {
             self.vehicle.command(&command)?;
             self.command = Some(command);
         }
-        if self.vehicle.is_at_end() {
-            self.is_over = true;
-            return Ok(false);
-        }
-        self.sense()?;
         Ok(false)
     }
 
-    /// Nothing to do: neither ahead nor up nor down.
-    fn still(&self) -> Command {
-        let truth = self.vehicle.truth().unwrap_or_default();
-        Command::still(truth.heading, truth.depth)
+    /// Nothing to do: neither ahead nor up nor down. The place of a vehicle at the end of a link is that in which what it did ended, as far
+    /// as it tells it; one that something is under way for is left alone.
+    fn still(&mut self) -> Option<Command> {
+        if !self.vehicle.is_linked() {
+            let truth = self.vehicle.truth().unwrap_or_default();
+            return Some(Command::still(truth.heading, truth.depth));
+        }
+        if self.task.is_some() || !self.claim.is_asked() {
+            return None;
+        }
+        if self.still.is_none() {
+            let number = |name| self.sensed(name).map(|reading| reading[0]);
+            let (heading, depth) = (number(senses::HEADING)?, number(senses::DEPTH)?);
+            self.still = Some(Command::still(Heading::from_radians(heading), depth));
+        }
+        self.still
+    }
+
+    /// Whether what is done in this tick has been decided.
+    pub fn is_decided(&self) -> bool {
+        self.is_decided
+    }
+
+    /// Something else is under way from this tick on, or nothing: what is done in it is decided anew.
+    pub fn put(&mut self, task: Option<Task>) {
+        self.task = task;
+        self.still = None;
+        self.is_decided = false;
+    }
+
+    /// Whether a vehicle at the end of a link has taken itself back, or would not let us drive.
+    pub fn has_left(&self) -> bool {
+        self.claim.is_asked() && matches!(self.snapshot.control, Control::Released | Control::Refused)
+    }
+
+    /// Gives a vehicle at the end of a link back, and listens on; whether it was ours to give.
+    pub fn give_back(&mut self) -> Result<bool, VehicleError> {
+        let was_asked = self.claim.is_asked();
+        if let Some(vehicle) = self.vehicle.port() {
+            self.claim.give_back(vehicle)?;
+        }
+        self.still = None;
+        if was_asked {
+            self.snapshot.control = Control::Monitoring;
+        }
+        Ok(was_asked)
+    }
+
+    /// What was sensed last by this name.
+    fn sensed(&self, name: &str) -> Option<[f64; 4]> {
+        let measurement = self.vehicle.measurements().iter().position(|c| c.name == name)?;
+        let last = |samples: &[Sample]| {
+            samples.iter().rev().find(|s| s.input_measurement() as usize == measurement).map(|s| s.reading)
+        };
+        last(&self.snapshot.samples).or_else(|| self.recent.iter().rev().find_map(|(_, samples)| last(samples)))
     }
 
     /// Where the vehicle believes to be, and when: a line as in a trace.
     pub fn place(&self) -> String {
-        let sensed = |name: &str| {
-            let measurement = self.vehicle.measurements().iter().position(|c| c.name == name)?;
-            self.snapshot
-                .samples
-                .iter()
-                .rev()
-                .find(|s| s.input_measurement() as usize == measurement)
-                .map(|s| s.reading)
-        };
-        let [north, east, ..] = sensed(senses::POSITION).unwrap_or([f64::NAN; 4]);
-        let heading = number::heading(sensed(senses::HEADING).map_or(f64::NAN, |r| r[0]));
-        let depth = number::metres(sensed(senses::DEPTH).map_or(f64::NAN, |r| r[0]));
+        let [north, east, ..] = self.sensed(senses::POSITION).unwrap_or([f64::NAN; 4]);
+        let heading = number::heading(self.sensed(senses::HEADING).map_or(f64::NAN, |r| r[0]));
+        let depth = number::metres(self.sensed(senses::DEPTH).map_or(f64::NAN, |r| r[0]));
         let place = number::point(albacore_geometry::Point::new(north, east));
         format!("{}  at {place}  heading {heading}  depth {depth}", number::seconds(self.tick))
     }
@@ -360,6 +441,12 @@ impl Past {
     /// The earliest tick that can be gone back to.
     pub fn earliest(&self) -> u64 {
         self.kept.iter().chain(&self.pinned).map(|m| m.tick).min().unwrap_or_default()
+    }
+
+    /// What lay before is not known any more.
+    pub fn forget_before(&mut self, tick: u64) {
+        self.kept.retain(|m| m.tick >= tick);
+        self.pinned.retain(|m| m.tick >= tick);
     }
 
     /// What lay ahead has not been.

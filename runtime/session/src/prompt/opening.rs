@@ -42,6 +42,8 @@ pub struct Opening {
     pub set: Vec<String>,
     /// What goes wrong beside what the world's scenario says.
     pub faults: Faults,
+    /// The vehicle at the end of a link that is driven, by its URL; none for a simulated one.
+    pub link: Option<String>,
     /// A run that is over, in place of a script: its mission goes through what its vehicle sensed.
     pub past: Option<Arc<PastTicks>>,
 }
@@ -118,7 +120,10 @@ impl Opening {
             return Err(OpenError::Script(Box::new((script.findings, script.sources))));
         }
         let has_mission = script.missions().next().is_some();
-        let (mission, scenario_name, scenario) = if has_mission {
+        let (mission, scenario_name, scenario) = if let Some(link) = &self.link {
+            let plan = Plan::on_link(&script, &name, wanted.mission, link).map_err(refused)?;
+            (Some(plan.program), plan.scenario_name, plan.scenario)
+        } else if has_mission {
             let plan = Plan::wanted(&script, &name, &wanted).map_err(refused)?;
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
@@ -155,6 +160,11 @@ impl Prompt {
             _ => Moment::first(vehicle(&loaded.scenario, opening.seed)?),
         };
         let now = now.map_err(|error| asked(error.to_string()))?;
+        Ok(Prompt::beginning(opening, loaded, now))
+    }
+
+    /// At its first moment.
+    pub(super) fn beginning(opening: Opening, loaded: Loaded, now: Moment) -> Self {
         let past = Past::beginning_with(&now);
         let mut prompt = Prompt {
             opening,
@@ -166,9 +176,10 @@ impl Prompt {
             here: FIRST_FORK.to_string(),
             forks: BTreeMap::new(),
             stopped: false,
+            has_lost_link: false,
         };
         prompt.look_ahead();
-        Ok(prompt)
+        prompt
     }
 }
 

@@ -40,6 +40,10 @@ impl Prompt {
             let help = "open the prompt with its script, `albacore repl MISSION.alb`, and `start`";
             return Err(wrong("a run that is over is no test", help));
         }
+        if self.opening.link.is_some() {
+            let help = "a test runs in a simulated world: open the prompt without `--link`, and `start`";
+            return Err(wrong("what a vehicle at the end of a link did is no test", help));
+        }
         let Some(script) = &self.opening.script else {
             return Err(wrong(
                 "there is no mission to be tested",

@@ -25,18 +25,11 @@ impl Prompt {
                 say(Say::Text("the journal ends here"));
                 break;
             }
-            let ended = match self.now.step(&mut |line| say(Say::Text(line))) {
-                Ok(ended) => ended,
-                Err(error) => {
-                    self.now.task = None;
-                    return say(Say::Error(&error.to_string(), None));
-                }
-            };
-            if ended {
-                self.past.pin(&self.now);
-                break;
+            match self.advance(say) {
+                Ok(has_ended) if has_ended || self.has_lost_link => break,
+                Ok(_) => {}
+                Err(error) => return self.lose_link(&error, say),
             }
-            self.past.note(&self.now);
         }
         let is_busy = was_busy && self.now.task.is_some();
         let on = match until.told() {
@@ -49,6 +42,9 @@ impl Prompt {
 
     /// Goes back in time: to the moment before, and on from there as it was. What has got a name since keeps it.
     pub(super) fn back(&mut self, ticks: u64, say: &mut Listener) -> Answer {
+        if let Some(answer) = self.needs_simulation(say) {
+            return answer;
+        }
         let to = self.now.tick.saturating_sub(ticks);
         let Some(mut moment) = self.past.before(to) else {
             let earliest = self.past.earliest();

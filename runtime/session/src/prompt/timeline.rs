@@ -30,6 +30,9 @@ impl Moment {
 
 impl Prompt {
     pub(super) fn fork(&mut self, name: &str, say: &mut Listener) -> Answer {
+        if let Some(answer) = self.needs_simulation(say) {
+            return answer;
+        }
         if name == self.here || self.forks.contains_key(name) {
             return wrong(&format!("there is a fork `{name}` already"), say);
         }

@@ -2,13 +2,14 @@
 //! for the vehicle alone, and gives a record; whoever keeps the records is no concern of it.
 
 use super::Running;
+use crate::control_claim::ControlClaim;
 use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
 use crate::recorders::digest::RunDigest;
 use crate::run_vehicle::RunVehicle;
 use crate::scenario;
 use albacore_geometry::Point;
-use albacore_machine::{ControlRequest, Event, Machine, Outcome};
+use albacore_machine::{Event, Machine, Outcome};
 use albacore_navigation::Trust;
 use albacore_program::{NamedArea, area_words};
 use albacore_sim::Simulator;
@@ -26,8 +27,7 @@ pub(crate) struct Driver {
     vehicle: RunVehicle,
     trust: Trust,
     digest: RunDigest,
-    /// Whether the vehicle has been asked to let us drive, and not been given back since.
-    asked_for_control: bool,
+    claim: ControlClaim,
     /// Why the mission ends, when that is known.
     reason: String,
     /// The tick in which that was said.
@@ -71,7 +71,7 @@ impl Driver {
             vehicle,
             trust: Trust::default(),
             digest: RunDigest::default(),
-            asked_for_control: false,
+            claim: ControlClaim::default(),
             reason: String::new(),
             reason_tick: 0,
             last_notice: String::new(),
@@ -174,8 +174,10 @@ impl Driver {
         let doubts = self.trust.look(record.tick, &mut record.snapshot, self.machine.state().command.as_ref());
         record.command = self.machine.step(&record.snapshot);
         let sent = record.command.map_or(Ok(()), |command| self.vehicle.port().command(&command));
-        let sent =
-            sent.and_then(|()| self.ask_payload()).and_then(|()| self.ask_anew()).and_then(|()| self.follow_wish());
+        let sent = sent
+            .and_then(|()| self.ask_payload())
+            .and_then(|()| self.claim.ask_anew(&self.machine, self.vehicle.port()))
+            .and_then(|()| self.follow_wish());
         record.step = Step::Tick;
         self.note_events(record);
         self.digest.take(record);
@@ -191,24 +193,9 @@ impl Driver {
         Ok(())
     }
 
-    /// Asks for control when the mission wants it, and gives it back when a guest's override has ended. At the end of the
-    /// mission comes the release.
+    /// Asks for control when the mission wants it. At the end of the mission comes the release.
     fn follow_wish(&mut self) -> Result<(), VehicleError> {
-        let wants = self.machine.wish() != ControlRequest::Listen;
-        if wants == self.asked_for_control || self.machine.outcome().is_some() {
-            return Ok(());
-        }
-        self.asked_for_control = wants;
-        if wants { self.vehicle.port().take_over() } else { self.vehicle.port().give_back() }
-    }
-
-    /// One override follows another in the same tick, and the vehicle has left the first or has not answered it: it is asked again.
-    fn ask_anew(&mut self) -> Result<(), VehicleError> {
-        if !self.asked_for_control || !self.machine.asks_anew() {
-            return Ok(());
-        }
-        self.asked_for_control = false;
-        self.vehicle.port().give_back()
+        self.claim.follow(&self.machine, self.vehicle.port())
     }
 
     /// Hands on what the mission asks of payloads.
@@ -246,7 +233,7 @@ impl Driver {
         let guest = self.machine.program().mission.guest;
         let (release, trouble) = match released {
             Err(error) => (Release::Failed, Some(error.to_string())),
-            Ok(()) if guest && !self.asked_for_control => (Release::NotOurs, None),
+            Ok(()) if guest && !self.claim.is_asked() => (Release::NotOurs, None),
             Ok(()) => (Release::Done, None),
         };
         let reason = self.reason.clone();

@@ -1,0 +1,141 @@
+//! A vehicle at the end of a link. Its time goes on while nobody types: whoever waits for the next line calls [`Prompt::idle`] again and
+//! again. What was told of it is kept, so that `why` and `plot` go through the past as in simulation; nothing of the past is driven again.
+
+use super::moment::Moment;
+use super::opening::Opening;
+use super::vehicle::{LinkedVehicle, PromptVehicle};
+use super::{Answer, Listener, OpenError, Prompt, Say};
+use albacore_vehicle::{Control, Vehicle, VehicleError};
+
+/// What is left when nothing is heard any more.
+const LOST: &str =
+    "what was told of it is still there for `why` and `plot`; leave, and open the prompt again, to call it again";
+
+impl Prompt {
+    /// Opens a prompt for a vehicle at the end of a link, which was heard and drives itself; `opening.link` names it.
+    pub fn on_link(opening: Opening, vehicle: Box<dyn Vehicle + Send>) -> Result<Self, OpenError> {
+        let loaded = opening.load()?;
+        let now = Moment::of_link(LinkedVehicle::new(vehicle));
+        let now = now.map_err(|error| OpenError::Asked(error.to_string(), None))?;
+        Ok(Prompt::beginning(opening, loaded, now))
+    }
+
+    /// Whether the vehicle is at the end of a link.
+    pub fn is_on_link(&self) -> bool {
+        self.now.vehicle.is_linked()
+    }
+
+    /// Whether the vehicle at the end of the link is not heard any more.
+    pub fn has_lost_link(&self) -> bool {
+        self.has_lost_link
+    }
+
+    /// Whether something is under way.
+    pub fn is_busy(&self) -> bool {
+        self.now.task.is_some()
+    }
+
+    /// Lets a tick go by if the time of the vehicle at the end of the link has come to it. Some hundredths of a second go by at most.
+    pub fn idle(&mut self, say: &mut Listener) {
+        if !self.is_on_link() || self.has_lost_link {
+            return;
+        }
+        let waits = self.now.is_decided();
+        let is_due = match self.now.vehicle.port().filter(|_| waits) {
+            Some(vehicle) => vehicle.ready(),
+            None => Ok(true),
+        };
+        match is_due {
+            Ok(false) => {}
+            Ok(true) => match self.advance(say) {
+                Ok(false) => {}
+                Ok(true) => say(Say::Text(&self.now.place())),
+                Err(error) => self.lose_link(&error, say),
+            },
+            Err(error) => self.lose_link(&error, say),
+        }
+    }
+
+    /// Lets a tick go by; whether what was under way has ended in it.
+    pub(super) fn advance(&mut self, say: &mut Listener) -> Result<bool, VehicleError> {
+        let PromptVehicle::Linked(_) = self.now.vehicle else {
+            let has_ended = self.now.step(&mut |line| say(Say::Text(line)))?;
+            match has_ended {
+                true => self.past.pin(&self.now),
+                false => self.past.note(&self.now),
+            }
+            return Ok(has_ended);
+        };
+        if self.now.is_decided() {
+            self.now.sense()?;
+            if let PromptVehicle::Linked(vehicle) = &self.now.vehicle {
+                self.past.forget_before(vehicle.first());
+            }
+            self.past.note(&self.now);
+        }
+        let has_ended = self.now.decide(&mut |line| say(Say::Text(line)))?;
+        if has_ended {
+            self.past.pin(&self.now);
+        }
+        if self.now.has_left() {
+            self.now.give_back()?;
+        }
+        if self.now.snapshot.control == Control::TimedOut {
+            self.has_lost_link = true;
+            say(Say::Error("the link is lost", Some(LOST)));
+        }
+        Ok(has_ended)
+    }
+
+    /// Nothing more is heard of the vehicle.
+    pub(super) fn lose_link(&mut self, error: &VehicleError, say: &mut Listener) {
+        self.now.put(None);
+        self.has_lost_link |= self.is_on_link();
+        say(Say::Error(&error.to_string(), self.has_lost_link.then_some(LOST)));
+    }
+
+    /// Gives the vehicle back, and listens on.
+    pub(super) fn release(&mut self, say: &mut Listener) -> Answer {
+        if !self.is_on_link() {
+            say(Say::Error("a simulated vehicle is nobody else's", Some("`stop` ends what is under way")));
+            return Answer::Wrong;
+        }
+        if self.now.task.is_some() {
+            self.stop(say);
+        }
+        match self.now.give_back() {
+            Ok(true) => say(Say::Text("the vehicle is given back: its own computer drives it, and we listen")),
+            Ok(false) => say(Say::Text("the vehicle drives itself already")),
+            Err(error) => self.lose_link(&error, say),
+        }
+        Answer::Done
+    }
+
+    /// Refuses what can be done with a vehicle alone whose time goes back.
+    pub(super) fn needs_simulation(&self, say: &mut Listener) -> Option<Answer> {
+        if !self.is_on_link() {
+            return None;
+        }
+        let help = "open the prompt without `--link` for a simulated vehicle; `why` and `plot` tell of what has been";
+        say(Say::Error("a vehicle at the end of a link does not go back in time", Some(help)));
+        Some(Answer::Wrong)
+    }
+
+    /// Ends the session: the vehicle is given back, which takes some seconds at most. An error says that it has not said so.
+    pub fn leave(&mut self, say: &mut Listener) -> Result<(), VehicleError> {
+        self.now.put(None);
+        let Some(vehicle) = self.now.vehicle.port().filter(|_| self.opening.link.is_some()) else { return Ok(()) };
+        let released = vehicle.release();
+        vehicle.notices().iter().for_each(|notice| say(Say::Text(&format!("vehicle  {notice}"))));
+        released
+    }
+
+    /// A vehicle that is not heard does nothing.
+    pub(super) fn is_beyond_reach(&self, say: &mut Listener) -> Option<Answer> {
+        if !self.has_lost_link {
+            return None;
+        }
+        say(Say::Error("the link is lost", Some(LOST)));
+        Some(Answer::Wrong)
+    }
+}
