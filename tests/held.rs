@@ -37,8 +37,12 @@ impl Terminal {
         self.line.try_clone().unwrap().into()
     }
 
+    pub fn types(&mut self, keys: &str) {
+        self.person.write_all(keys.as_bytes()).unwrap();
+    }
+
     fn ctrl_s(&mut self) {
-        self.person.write_all(b"\x13").unwrap();
+        self.types("\x13");
     }
 
     /// Reads until this was said.

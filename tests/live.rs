@@ -3,6 +3,7 @@
 mod held;
 mod kept;
 mod link;
+mod linked_prompt;
 mod live_page;
 
 #[path = "link/far_end.rs"]

@@ -3,6 +3,7 @@
 
 use super::hear;
 use crate::exit::Exit;
+use crate::speaker::within;
 use crate::{interruption, message};
 use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use albacore_session::seen::shown;
@@ -19,6 +20,9 @@ use std::time::Duration;
 const WAITING_MAX: usize = 1000;
 /// A look for the next line, where no vehicle is to be looked after any more.
 const LOOK: Duration = Duration::from_millis(50);
+
+/// A terminal has so long for what is said in the end.
+const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// What is asked of the prompt.
 enum Request {
@@ -195,9 +199,9 @@ impl Driver {
             }
         };
         if by_request {
-            // Whoever waits for a line waits on.
-            told.iter().for_each(|heard| hear(heard.say()));
+            // Whoever waits for a line waits on, and a terminal may hold who writes.
             super::terminal::restore();
+            within(LAST_WORDS, move || told.iter().for_each(|heard| hear(heard.say())));
             std::process::exit(exit as i32);
         }
         told.into_iter().for_each(|heard| _ = replies.send(Reply::Said(heard)));

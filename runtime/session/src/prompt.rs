@@ -331,8 +331,8 @@ impl Prompt {
 
     /// A machine that begins in a moment, and knows what was sensed lately.
     fn machine_in(&self, moment: &Moment, program: Arc<Program>) -> Result<Machine, String> {
-        let mut machine =
-            Machine::new(program, moment.vehicle.measurements()).map_err(|missing| missing.to_string())?;
+        let machine = Machine::new(program, moment.vehicle.measurements()).map_err(|missing| missing.to_string())?;
+        let mut machine = machine.with_chart(self.loaded.chart.clone());
         // The mission of a run that is over begins with the run, whoever drives then.
         if !(moment.vehicle.is_past() && moment.tick == 0) {
             machine.begin_at(moment.tick, moment.recent());

@@ -7,6 +7,9 @@ use super::vehicle::{LinkedVehicle, PromptVehicle};
 use super::{Answer, Listener, OpenError, Prompt, Say};
 use albacore_vehicle::{Control, Vehicle, VehicleError};
 
+/// So long is listened before the first line, for what the vehicle tells once a second to be known in it: 2 s.
+const LISTEN_TICKS: u64 = 20;
+
 /// What is left when nothing is heard any more.
 const LOST: &str =
     "what was told of it is still there for `why` and `plot`; leave, and open the prompt again, to call it again";
@@ -15,8 +18,12 @@ impl Prompt {
     /// Opens a prompt for a vehicle at the end of a link, which was heard and drives itself; `opening.link` names it.
     pub fn on_link(opening: Opening, vehicle: Box<dyn Vehicle + Send>) -> Result<Self, OpenError> {
         let loaded = opening.load()?;
-        let now = Moment::of_link(LinkedVehicle::new(vehicle));
-        let now = now.map_err(|error| OpenError::Asked(error.to_string(), None))?;
+        let listens = || {
+            let mut now = Moment::of_link(LinkedVehicle::new(vehicle))?;
+            (0..LISTEN_TICKS).try_for_each(|_| now.sense())?;
+            Ok(now)
+        };
+        let now = listens().map_err(|error: VehicleError| OpenError::Asked(error.to_string(), None))?;
         Ok(Prompt::beginning(opening, loaded, now))
     }
 
@@ -124,9 +131,13 @@ impl Prompt {
     /// Ends the session: the vehicle is given back, which takes some seconds at most. An error says that it has not said so.
     pub fn leave(&mut self, say: &mut Listener) -> Result<(), VehicleError> {
         self.now.put(None);
+        let was_asked = self.now.is_asked();
         let Some(vehicle) = self.now.vehicle.port().filter(|_| self.opening.link.is_some()) else { return Ok(()) };
         let released = vehicle.release();
         vehicle.notices().iter().for_each(|notice| say(Say::Text(&format!("vehicle  {notice}"))));
+        if was_asked && released.is_ok() {
+            say(Say::Text("the vehicle has taken control back"));
+        }
         released
     }
 

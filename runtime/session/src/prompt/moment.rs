@@ -351,6 +351,11 @@ impl Moment {
         self.is_decided = false;
     }
 
+    /// Whether a vehicle at the end of a link was asked to let us drive, and not given back since.
+    pub fn is_asked(&self) -> bool {
+        self.claim.is_asked()
+    }
+
     /// Whether a vehicle at the end of a link has taken itself back, or would not let us drive.
     pub fn has_left(&self) -> bool {
         self.claim.is_asked() && matches!(self.snapshot.control, Control::Released | Control::Refused)

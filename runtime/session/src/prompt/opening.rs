@@ -15,7 +15,7 @@ use albacore_lang::diagnostic::Diagnostic;
 use albacore_lang::prompt::Prompt as Lines;
 use albacore_lang::source::{Source, Sources};
 use albacore_lang::{Library, Script};
-use albacore_machine::Machine;
+use albacore_machine::{Chart, Machine};
 use albacore_program::Program;
 use albacore_sim::{Scenario, Simulator};
 use albacore_trace::journal::{Ending, Entry, JournalHeader, Reader};
@@ -92,6 +92,8 @@ pub(super) struct Loaded {
     pub mission: Option<Arc<Program>>,
     pub scenario_name: String,
     pub scenario: Arc<Scenario>,
+    /// What is known of the bottom beforehand.
+    pub chart: Option<Chart>,
 }
 
 impl Opening {
@@ -120,11 +122,13 @@ impl Opening {
             return Err(OpenError::Script(Box::new((script.findings, script.sources))));
         }
         let has_mission = script.missions().next().is_some();
-        let (mission, scenario_name, scenario) = if let Some(link) = &self.link {
-            let plan = Plan::on_link(&script, &name, wanted.mission, link).map_err(refused)?;
-            (Some(plan.program), plan.scenario_name, plan.scenario)
-        } else if has_mission {
-            let plan = Plan::wanted(&script, &name, &wanted).map_err(refused)?;
+        let plan = match &self.link {
+            Some(link) => Some(Plan::on_link(&script, &name, wanted.mission, link).map_err(refused)?),
+            None if has_mission => Some(Plan::wanted(&script, &name, &wanted).map_err(refused)?),
+            None => None,
+        };
+        let chart = plan.as_ref().and_then(Plan::chart);
+        let (mission, scenario_name, scenario) = if let Some(plan) = plan {
             (Some(plan.program), plan.scenario_name, plan.scenario)
         } else {
             let wanted = wanted.scenario.unwrap_or(SCENARIO_AT_FIRST);
@@ -132,7 +136,7 @@ impl Opening {
             (None, lowered.name, Arc::new(understood.world))
         };
         let scenario = self.faults.in_scenario(scenario).map_err(refused)?;
-        Ok(Loaded { files: Arc::new(files), lines, script, mission, scenario_name, scenario })
+        Ok(Loaded { files: Arc::new(files), lines, script, mission, scenario_name, scenario, chart })
     }
 
     /// The script as a journal holds it.
@@ -140,8 +144,9 @@ impl Opening {
         let changes = Changes { set: &self.set, beside: past.beside.as_deref(), ..Changes::default() };
         let (_, plan) = Plan::of_journal(&past.header, &changes)?;
         let (files, lines, script) = kept::lines(&past.header, &changes)?;
+        let chart = plan.chart();
         let Plan { program, scenario, scenario_name, .. } = plan;
-        Ok(Loaded { files, lines, script, mission: Some(program), scenario_name, scenario })
+        Ok(Loaded { files, lines, script, mission: Some(program), scenario_name, scenario, chart })
     }
 }
 
@@ -153,7 +158,7 @@ impl Prompt {
         let now = match (&opening.past, &loaded.mission) {
             (Some(past), Some(program)) => {
                 let machine = Machine::new(Arc::clone(program), &past.header.measurements);
-                let machine = machine.map_err(|missing| asked(missing.to_string()))?;
+                let machine = machine.map_err(|missing| asked(missing.to_string()))?.with_chart(loaded.chart.clone());
                 let vehicle = PastVehicle::new(past.header.measurements.clone().into(), Arc::clone(&past.ticks));
                 Moment::of_past(vehicle, machine)
             }
