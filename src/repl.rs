@@ -124,10 +124,12 @@ impl Repl {
             link: Some(call.url),
             ..Opening::default()
         };
-        let opened = LinkedPrompt::open(opening, call.vehicle, interrupted).map_err(|error| no_thread(&error))?;
+        let is_typed = std::io::stdin().is_terminal();
+        let opened =
+            LinkedPrompt::open(opening, call.vehicle, interrupted, is_typed).map_err(|error| no_thread(&error))?;
         let (prompt, meanwhile) = opened.map_err(not_opened)?;
         let prompt = Shared::Linked(Rc::new((prompt, stops)));
-        let exit = match std::io::stdin().is_terminal() {
+        let exit = match is_typed {
             true => typed(&prompt, Some(meanwhile)),
             false => {
                 meanwhile.print(Box::new(output::print_raw)).map_err(|error| no_thread(&error))?;

@@ -130,6 +130,23 @@ fn a_vehicle_that_goes_away_is_told_at_the_prompt() {
     in_order(&stdout(&output), &["end      link_lost", "depth"]);
 }
 
+/// The next of lines that nobody types would set the vehicle in motion again.
+#[test]
+fn ctrl_c_ends_a_session_of_a_pipe() {
+    let folder = empty("prompt-pipe");
+    let vehicle = vehicle(&folder);
+    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(b"goto point(north: 150 m, east: 0 m)\ngoto point(north: 0 m, east: 0 m)\n").unwrap();
+    vehicle.says("override taken");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    send("-INT", &child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    in_order(&stdout(&output), &["  stopped", "the vehicle has taken control back"]);
+    vehicle.says("override released");
+}
+
 /// A session at a terminal, once it drives.
 fn driving(vehicle: &Vehicle, terminal: &mut Terminal) -> Child {
     let mut command = prompt(vehicle, &[]);

@@ -9,6 +9,7 @@ use albacore_session::prompt::{Answer, OpenError, Opening, Prompt, Say};
 use albacore_session::seen::shown;
 use albacore_session::threads::thread;
 use albacore_session::{Called, Diagnostic, Sources};
+use std::cell::Cell;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -75,17 +76,20 @@ pub struct LinkedPrompt {
     requests: Sender<Request>,
     replies: Receiver<Reply>,
     greeting: String,
+    /// How the session has ended.
+    left: Cell<Option<Exit>>,
 }
 
 /// Prints what happens while a line is typed, given as whole lines.
 pub type Above = Box<dyn FnMut(&str) + Send>;
 
 impl LinkedPrompt {
-    /// Opens the prompt for a vehicle that was heard. `interrupted` stops what is under way.
+    /// Opens the prompt for a vehicle that was heard. `interrupted` stops what is under way, and ends a session whose lines nobody types.
     pub fn open(
         opening: Opening,
         vehicle: Called,
         interrupted: Arc<AtomicBool>,
+        is_typed: bool,
     ) -> io::Result<Result<(Self, Meanwhile), OpenError>> {
         let (requests, asked) = channel();
         let (replies, replied) = channel();
@@ -98,14 +102,14 @@ impl LinkedPrompt {
                 Err(error) => return drop(opens.send(Err(error))),
             };
             let _ = opens.send(Ok(prompt.greeting()));
-            Driver { prompt, lines, left_out: 0, interrupted, is_over, replies }.drive(&asked);
+            Driver { prompt, lines, left_out: 0, interrupted, is_over, is_typed, replies }.drive(&asked);
         })?;
         let greeting = match opened.recv() {
             Ok(Ok(greeting)) => greeting,
             Ok(Err(error)) => return Ok(Err(error)),
             Err(_) => return Err(io::Error::other("the thread of the prompt has ended")),
         };
-        Ok(Ok((LinkedPrompt { requests, replies: replied, greeting }, Meanwhile(meanwhile))))
+        Ok(Ok((LinkedPrompt { requests, replies: replied, greeting, left: Cell::default() }, Meanwhile(meanwhile))))
     }
 
     /// What is loaded, in one line.
@@ -115,13 +119,17 @@ impl LinkedPrompt {
 
     /// Does what was typed, and prints what comes of it. None: the prompt is over.
     pub fn enter(&self, text: &str) -> Option<Answer> {
-        self.requests.send(Request::Enter(text.to_string())).ok()?;
+        // Who has left has said how, and is heard here.
+        let _ = self.requests.send(Request::Enter(text.to_string()));
         loop {
             match self.replies.recv().ok()? {
                 Reply::Said(heard) => hear(heard.say()),
                 Reply::Entered(answer) => return Some(answer),
                 Reply::Words(..) => {}
-                Reply::Left(_) => return None,
+                Reply::Left(exit) => {
+                    self.left.set(Some(exit));
+                    return None;
+                }
             }
         }
     }
@@ -134,12 +142,19 @@ impl LinkedPrompt {
         }
         match self.replies.recv() {
             Ok(Reply::Words(begin, words)) => (begin, words),
+            Ok(Reply::Left(exit)) => {
+                self.left.set(Some(exit));
+                nothing
+            }
             _ => nothing,
         }
     }
 
     /// Gives the vehicle back; how the session ends.
     pub fn leave(&self) -> Exit {
+        if let Some(exit) = self.left.get() {
+            return exit;
+        }
         let _ = self.requests.send(Request::Leave);
         while let Ok(reply) = self.replies.recv() {
             match reply {
@@ -163,6 +178,15 @@ impl Meanwhile {
     }
 }
 
+/// Why a session is over.
+enum Left {
+    ByPerson,
+    /// The system asks the program to end.
+    ByRequest,
+    /// Ctrl-C, where nobody types.
+    Interrupted,
+}
+
 /// The side of the vehicle.
 struct Driver {
     prompt: Prompt,
@@ -170,6 +194,8 @@ struct Driver {
     left_out: u64,
     interrupted: Arc<AtomicBool>,
     is_over: Arc<AtomicBool>,
+    /// A person types, and goes on after Ctrl-C.
+    is_typed: bool,
     replies: Sender<Reply>,
 }
 
@@ -178,20 +204,17 @@ impl Driver {
     /// leave a vehicle without its release.
     fn drive(mut self, asked: &Receiver<Request>) {
         let lived = catch_unwind(AssertUnwindSafe(|| self.live(asked)));
-        let by_request = matches!(lived, Ok(false));
+        let by_request = matches!(lived, Ok(Left::ByRequest));
         let (replies, mut told) = (self.replies.clone(), Vec::new());
         let released = self.prompt.leave(&mut |said| told.push(Heard::of(said)));
         if lived.is_err() {
             told.push(Heard::Error("the interpreter has panicked: report this".to_string(), None));
         }
         let exit = match released {
-            Ok(()) if lived.is_ok() && !self.prompt.has_lost_link() => {
-                if by_request {
-                    Exit::NotWell
-                } else {
-                    Exit::Well
-                }
-            }
+            Ok(()) if lived.is_ok() && !self.prompt.has_lost_link() => match lived {
+                Ok(Left::ByPerson) => Exit::Well,
+                _ => Exit::NotWell,
+            },
             Ok(()) => Exit::Failed,
             Err(error) => {
                 told.push(Heard::Error(error.to_string(), None));
@@ -208,11 +231,11 @@ impl Driver {
         let _ = replies.send(Reply::Left(exit));
     }
 
-    /// Whether the person has left; else the system asks for the end.
-    fn live(&mut self, asked: &Receiver<Request>) -> bool {
+    /// Goes on until somebody leaves.
+    fn live(&mut self, asked: &Receiver<Request>) -> Left {
         loop {
             if self.is_over.load(Ordering::Relaxed) {
-                return false;
+                return Left::ByRequest;
             }
             if self.interrupted.swap(false, Ordering::Relaxed) && self.prompt.is_busy() {
                 let never = AtomicBool::new(false);
@@ -230,13 +253,17 @@ impl Driver {
                     let replies = self.replies.clone();
                     let mut say = |said: Say| _ = replies.send(Reply::Said(Heard::of(said)));
                     let answer = self.prompt.enter(&text, &self.interrupted, &mut say);
+                    // The next of lines that nobody types would set it in motion again.
+                    if self.prompt.was_stopped() && !self.is_typed {
+                        return Left::Interrupted;
+                    }
                     let _ = self.replies.send(Reply::Entered(answer));
                 }
                 Ok(Request::Complete(line, at)) => {
                     let (begin, words) = self.prompt.complete(&line, at);
                     let _ = self.replies.send(Reply::Words(begin, words));
                 }
-                Ok(Request::Leave) | Err(TryRecvError::Disconnected) => return true,
+                Ok(Request::Leave) | Err(TryRecvError::Disconnected) => return Left::ByPerson,
                 Err(TryRecvError::Empty) => self.meanwhile(Prompt::idle),
             }
         }

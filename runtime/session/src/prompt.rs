@@ -124,16 +124,22 @@ impl Prompt {
     /// Does what was typed, one statement after the other, until one is wrong. A raised flag stops the vehicle and what would
     /// have come after, and is lowered again.
     pub fn enter(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        self.stopped = false;
         for statement in albacore_lang::syntax::statements(text) {
             let answer = match command::of(statement) {
                 Some(command) => self.command(command, interrupted, say),
                 None => self.line(statement, interrupted, say),
             };
-            if answer != Answer::Done || std::mem::take(&mut self.stopped) {
+            if answer != Answer::Done || self.stopped {
                 return answer;
             }
         }
         Answer::Done
+    }
+
+    /// Whether the person has interrupted what was entered last.
+    pub fn was_stopped(&self) -> bool {
+        self.stopped
     }
 
     fn command(&mut self, command: Command, interrupted: &AtomicBool, say: &mut Listener) -> Answer {

@@ -87,21 +87,15 @@ pub fn of(text: &str) -> Option<Command<'_>> {
     // `step = 3 m` and `run + x` are the language's; `run -3 s` is meant as a command.
     let negative = rest.starts_with('-') && rest[1..].starts_with(|c: char| c.is_ascii_digit());
     let has_value = negative || rest.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
+    if let Some(command) = alone(word).filter(|_| rest.is_empty()) {
+        return Some(command);
+    }
     Some(match (word, rest) {
-        ("help" | "?", "") => Command::Help,
-        ("quit" | "exit", "") => Command::Quit,
-        ("behavior", "") => Command::Behavior,
-        ("names", "") => Command::Names,
-        ("start", "") => Command::Start,
-        ("stop", "") => Command::Stop,
-        ("release", "") => Command::Release,
-        ("step", "") => Command::Step(1),
         ("step", count) if has_value => {
             let ticks = count.parse().ok().filter(|ticks| (1..=TICKS_MAX).contains(ticks));
             let help = "for example `step 10`; for a time write `run 10 s`";
             ticks.map_or(Command::Misused("`step` takes a count of ticks, from 1 to 360000", help), Command::Step)
         }
-        ("run", "") => Command::Run(None),
         ("run" | "back", _) if negative => {
             Command::Misused("time goes by in one direction", "`run 30 s` goes on, `back 30 s` goes back")
         }
@@ -118,9 +112,6 @@ pub fn of(text: &str) -> Option<Command<'_>> {
             let help = "leave, and open the prompt with it: `albacore repl FILE.alb`; `use NAME` imports a module";
             Command::Misused("a script is not loaded at the prompt", help)
         }
-        ("why", "") => Command::Why(None),
-        ("reload", "") => Command::Reload,
-        ("forks", "") => Command::Forks,
         ("set", _) if has_value => match rest.split_once('=') {
             Some((name, value)) if is_path(name.trim()) && !value.trim().is_empty() => {
                 Command::Set(name.trim(), value.trim())
@@ -159,6 +150,25 @@ pub fn of(text: &str) -> Option<Command<'_>> {
         ("quit" | "exit" | "help" | "names" | "stop" | "release" | "start" | "reload" | "forks", _) if has_value => {
             Command::Misused("this command stands alone on its line", "`help` lists the commands")
         }
+        _ => return None,
+    })
+}
+
+/// A command of one word.
+fn alone(word: &str) -> Option<Command<'static>> {
+    Some(match word {
+        "help" | "?" => Command::Help,
+        "quit" | "exit" => Command::Quit,
+        "behavior" => Command::Behavior,
+        "names" => Command::Names,
+        "start" => Command::Start,
+        "stop" => Command::Stop,
+        "release" => Command::Release,
+        "step" => Command::Step(1),
+        "run" => Command::Run(None),
+        "why" => Command::Why(None),
+        "reload" => Command::Reload,
+        "forks" => Command::Forks,
         _ => return None,
     })
 }
