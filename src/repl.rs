@@ -30,8 +30,8 @@ use std::cell::RefCell;
 use std::io::{BufRead, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A line that goes on in so many others is taken as it is: it is no script.
 const LINES_AT_ONCE_MAX: usize = 1_000;
@@ -219,6 +219,11 @@ impl Shared {
         }
     }
 
+    /// Whether the person has interrupted what a vehicle at the end of a link did.
+    fn was_stopped(&self) -> bool {
+        matches!(self, Shared::Linked(linked) if linked.0.was_stopped())
+    }
+
     /// Ctrl-C where a line is typed.
     fn interrupt(&self) {
         match self {
@@ -242,25 +247,20 @@ impl Shared {
 /// Lines from a person.
 fn typed(prompt: &Shared, meanwhile: Option<Meanwhile>) -> Exit {
     terminal::remember();
-    let mut editor: Editor<Lines, MemHistory> = match Editor::with_history(Default::default(), MemHistory::new()) {
+    let above = Arc::new(Mutex::new(Box::new(output::print_raw) as Above));
+    let mut editor = match edited(prompt, &[], &above) {
         Ok(editor) => editor,
-        Err(error) => {
-            message::error(&format!("the terminal cannot be used: {error}"), Some("give the lines through a pipe"));
-            return Exit::Failed;
-        }
+        Err(exit) => return exit,
     };
-    editor.set_helper(Some(Lines(prompt.clone())));
     hear(Say::Text(&prompt.greeting()));
     if let Some(meanwhile) = meanwhile {
-        let above: Above = match editor.create_external_printer() {
-            Ok(mut printer) => Box::new(move |lines| _ = printer.print(lines.to_string())),
-            // Only the input is a terminal.
-            Err(_) => Box::new(output::print_raw),
-        };
-        if let Err(error) = meanwhile.print(above) {
+        let above = Arc::clone(&above);
+        let print = move |lines: &str| (above.lock().unwrap_or_else(PoisonError::into_inner))(lines);
+        if let Err(error) = meanwhile.print(Box::new(print)) {
             return no_thread(&error);
         }
     }
+    let mut history = Vec::new();
     loop {
         let line = editor.readline("> ");
         prompt.tell_of_ctrl_z();
@@ -268,8 +268,18 @@ fn typed(prompt: &Shared, meanwhile: Option<Meanwhile>) -> Exit {
             Ok(text) => {
                 // What cannot be remembered is typed again.
                 let _ = editor.add_history_entry(text.as_str());
-                if prompt.enter(&text).is_none_or(|answer| answer == Answer::Quit) {
+                let answer = prompt.enter(&text);
+                history.push(text);
+                if answer.is_none_or(|answer| answer == Answer::Quit) {
                     return Exit::Well;
+                }
+                if prompt.was_stopped() {
+                    // Lines that were pasted behind the one that was stopped would set the vehicle in motion again.
+                    terminal::discard();
+                    editor = match edited(prompt, &history, &above) {
+                        Ok(editor) => editor,
+                        Err(exit) => return exit,
+                    };
                 }
             }
             Err(ReadlineError::Interrupted) => prompt.interrupt(),
@@ -283,6 +293,23 @@ fn typed(prompt: &Shared, meanwhile: Option<Meanwhile>) -> Exit {
             }
         }
     }
+}
+
+/// A line editor that has read nothing yet, with the lines that were typed before; what happens meanwhile is printed above its line.
+fn edited(prompt: &Shared, history: &[String], above: &Mutex<Above>) -> Result<Editor<Lines, MemHistory>, Exit> {
+    let editor = Editor::with_history(Default::default(), MemHistory::new());
+    let mut editor: Editor<Lines, MemHistory> = editor.map_err(|error| {
+        message::error(&format!("the terminal cannot be used: {error}"), Some("give the lines through a pipe"));
+        Exit::Failed
+    })?;
+    editor.set_helper(Some(Lines(prompt.clone())));
+    history.iter().for_each(|line| _ = editor.add_history_entry(line.as_str()));
+    // Where only the input is a terminal, there is no line to print above.
+    if let (Shared::Linked(_), Ok(mut printer)) = (prompt, editor.create_external_printer()) {
+        *above.lock().unwrap_or_else(PoisonError::into_inner) =
+            Box::new(move |lines| _ = printer.print(lines.to_string()));
+    }
+    Ok(editor)
 }
 
 /// Lines from a pipe or a file: the same, without the greeting; that one of them was wrong is told at the end.

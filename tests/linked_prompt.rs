@@ -1,7 +1,7 @@
 //! The prompt of a vehicle at the end of a link: it drives while nobody types, is held by no terminal, and gives the vehicle back however
 //! it ends.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot start its own programs has failed")]
+#![expect(clippy::panic, clippy::unwrap_used, reason = "a test that cannot start its own programs has failed")]
 #![cfg(target_os = "linux")]
 
 use crate::far_end::*;
@@ -147,6 +147,74 @@ fn ctrl_c_ends_a_session_of_a_pipe() {
     vehicle.says("override released");
 }
 
+/// Wherever it comes: while nothing is waited for, too.
+#[test]
+fn ctrl_c_between_two_lines_ends_a_session_of_a_pipe() {
+    let folder = empty("prompt-between");
+    let vehicle = vehicle(&folder);
+    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(b"steer 90 deg\n").unwrap();
+    vehicle.says("override taken");
+    send("-INT", &child);
+    assert_eq!(
+        eventually("the end", || child.try_wait().unwrap_or(None).or_else(|| {
+            // Whoever waits for a line learns of the end with the next one.
+            let _ = input.write_all(b"steer 270 deg\n");
+            None
+        }))
+        .code(),
+        Some(1)
+    );
+    vehicle.says("override released");
+    assert_eq!(vehicle.said().matches("override taken").count(), 1, "{}", vehicle.said());
+}
+
+/// A vehicle that has not answered yet is not taken any more, and what is not ours is not said to be stopped.
+#[test]
+fn stop_withdraws_a_request_for_control() {
+    let folder = empty("prompt-withdrawn");
+    let world = folder.join("slow.alb");
+    let text = std::fs::read_to_string(EXCURSION).unwrap();
+    let start = "start: 36°10.746'N 75°44.427'W";
+    let text = text.replace("start: point(north: -100 m, east: -40 m)", start);
+    let slow = "\nscenario slow = bay with { handover(after: 10 s) }\n";
+    std::fs::write(&world, text + slow).unwrap();
+    let world = format!("{}#slow", world.display());
+    let vehicle = Vehicle::serve_at(SLOW_RATE, &world, "udp:127.0.0.1:0?dialect=recon", &folder);
+    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(b"stop\nsteer 90 deg\nrun 2 s\nstop\nrun 15 s\nquit\n").unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let parts = ["nothing of ours is under way", "goes on while you type", "control is not asked for any more"];
+    in_order(&stdout(&output), &parts);
+    assert!(!vehicle.said().contains("override taken"), "{}", vehicle.said());
+}
+
+#[test]
+fn what_was_named_is_plotted_as_it_was_and_the_frame_stays_where_it_is() {
+    let folder = empty("prompt-named");
+    let vehicle = vehicle(&folder);
+    let script = folder.join("excursion.alb");
+    let text = std::fs::read_to_string(EXCURSION).unwrap();
+    std::fs::write(&script, &text).unwrap();
+    let mut command = albacore(&["repl", script.to_str().unwrap(), "--link", &vehicle.link]);
+    let mut child = command.args(SLOW_RATE).stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input
+        .write_all(b"steer 90 deg\nvar x = 1\nrun 5 s\nx = 5\nrun 5 s\nplot x\nrun until depth > 2 m\nstop\n")
+        .unwrap();
+    vehicle.says("override taken");
+    std::fs::write(&script, text.replace("36°10.8'N", "36°10.83'N")).unwrap();
+    input.write_all(b"reload\nask camera\nquit\n").unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = stdout(&output);
+    let has = |value: &str| said.lines().any(|line| line.starts_with(&format!("       {value} ")));
+    assert!(has("5") && has("1"), "from 1 to 5:\n{said}");
+    assert!(stderr(&output).contains("where the mission's frame lies on the globe"), "{}", stderr(&output));
+}
+
 /// A session at a terminal, once it drives.
 fn driving(vehicle: &Vehicle, terminal: &mut Terminal) -> Child {
     let mut command = prompt(vehicle, &[]);
@@ -168,12 +236,20 @@ fn what_happens_is_printed_above_the_line_and_ctrl_c_stops_the_motion() {
     let mut child = driving(&vehicle, &mut terminal);
     terminal.types("\x03");
     terminal.says("stopped");
+    // What was pasted behind a line that is stopped is not done.
+    terminal.types("goto point(north: 150 m, east: 0 m)\rgoto point(north: -150 m, east: 0 m)\r");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    // As Ctrl-C does while nothing is typed: this terminal is no shell's.
+    send("-INT", &child);
+    terminal.says("stopped");
+    // What is typed before the editor is there is dropped, too.
+    std::thread::sleep(std::time::Duration::from_millis(500));
     terminal.types("start\r");
     terminal.says("begin      goto point(north: -20 m");
     terminal.types("\x1a");
     terminal.types("position\r");
     terminal.says("Ctrl-Z would leave the vehicle without commands");
-    terminal.says("> ");
+    std::thread::sleep(std::time::Duration::from_millis(500));
     terminal.types("\x04");
     assert_eq!(eventually("the end", || child.try_wait().unwrap()).code(), Some(0));
     vehicle.says("override released");

@@ -19,6 +19,8 @@ use std::time::Duration;
 
 /// So many lines wait to be printed above what is typed; more are left out while a terminal takes none.
 const WAITING_MAX: usize = 1000;
+/// No longer line is read while a vehicle waits for its commands.
+const LINE_BYTES_MAX: usize = 1 << 16;
 /// A look for the next line, where no vehicle is to be looked after any more.
 const LOOK: Duration = Duration::from_millis(50);
 
@@ -35,7 +37,8 @@ enum Request {
 /// What comes of it.
 enum Reply {
     Said(Heard),
-    Entered(Answer),
+    /// Whether the person has interrupted it, too.
+    Entered(Answer, bool),
     Words(usize, Vec<String>),
     Left(Exit),
 }
@@ -78,6 +81,7 @@ pub struct LinkedPrompt {
     greeting: String,
     /// How the session has ended.
     left: Cell<Option<Exit>>,
+    was_stopped: Cell<bool>,
 }
 
 /// Prints what happens while a line is typed, given as whole lines.
@@ -109,7 +113,10 @@ impl LinkedPrompt {
             Ok(Err(error)) => return Ok(Err(error)),
             Err(_) => return Err(io::Error::other("the thread of the prompt has ended")),
         };
-        Ok(Ok((LinkedPrompt { requests, replies: replied, greeting, left: Cell::default() }, Meanwhile(meanwhile))))
+        Ok(Ok((
+            LinkedPrompt { requests, replies: replied, greeting, left: Cell::default(), was_stopped: Cell::default() },
+            Meanwhile(meanwhile),
+        )))
     }
 
     /// What is loaded, in one line.
@@ -124,7 +131,10 @@ impl LinkedPrompt {
         loop {
             match self.replies.recv().ok()? {
                 Reply::Said(heard) => hear(heard.say()),
-                Reply::Entered(answer) => return Some(answer),
+                Reply::Entered(answer, was_stopped) => {
+                    self.was_stopped.set(was_stopped);
+                    return Some(answer);
+                }
                 Reply::Words(..) => {}
                 Reply::Left(exit) => {
                     self.left.set(Some(exit));
@@ -132,6 +142,11 @@ impl LinkedPrompt {
                 }
             }
         }
+    }
+
+    /// Whether the person has interrupted what was entered last.
+    pub fn was_stopped(&self) -> bool {
+        self.was_stopped.get()
     }
 
     /// What a line may go on with.
@@ -160,7 +175,7 @@ impl LinkedPrompt {
             match reply {
                 Reply::Said(heard) => hear(heard.say()),
                 Reply::Left(exit) => return exit,
-                Reply::Entered(_) | Reply::Words(..) => {}
+                Reply::Entered(..) | Reply::Words(..) => {}
             }
         }
         Exit::Failed
@@ -237,7 +252,12 @@ impl Driver {
             if self.is_over.load(Ordering::Relaxed) {
                 return Left::ByRequest;
             }
-            if self.interrupted.swap(false, Ordering::Relaxed) && self.prompt.is_busy() {
+            let is_interrupted = self.interrupted.swap(false, Ordering::Relaxed);
+            // The next of lines that nobody types would set it in motion again.
+            if is_interrupted && !self.is_typed {
+                return Left::Interrupted;
+            }
+            if is_interrupted && self.prompt.is_busy() {
                 let never = AtomicBool::new(false);
                 self.meanwhile(|prompt, say| _ = prompt.enter("stop", &never, say));
             }
@@ -249,15 +269,20 @@ impl Driver {
                 false => asked.try_recv(),
             };
             match request {
+                Ok(Request::Enter(text)) if text.len() > LINE_BYTES_MAX => {
+                    let what = format!("a line for a vehicle at the end of a link has {LINE_BYTES_MAX} bytes at most");
+                    let help = "declare it in the script: the vehicle is told nothing while a line is read".to_string();
+                    let _ = self.replies.send(Reply::Said(Heard::Error(what, Some(help))));
+                    let _ = self.replies.send(Reply::Entered(Answer::Wrong, false));
+                }
                 Ok(Request::Enter(text)) => {
                     let replies = self.replies.clone();
                     let mut say = |said: Say| _ = replies.send(Reply::Said(Heard::of(said)));
                     let answer = self.prompt.enter(&text, &self.interrupted, &mut say);
-                    // The next of lines that nobody types would set it in motion again.
                     if self.prompt.was_stopped() && !self.is_typed {
                         return Left::Interrupted;
                     }
-                    let _ = self.replies.send(Reply::Entered(answer));
+                    let _ = self.replies.send(Reply::Entered(answer, self.prompt.was_stopped()));
                 }
                 Ok(Request::Complete(line, at)) => {
                     let (begin, words) = self.prompt.complete(&line, at);

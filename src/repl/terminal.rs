@@ -2,7 +2,7 @@
 
 #[cfg(unix)]
 mod unix {
-    use nix::sys::termios::{SetArg, Termios, tcgetattr, tcsetattr};
+    use nix::sys::termios::{FlushArg, SetArg, Termios, tcflush, tcgetattr, tcsetattr};
     use std::os::fd::AsRawFd;
     use std::sync::Mutex;
 
@@ -13,6 +13,11 @@ mod unix {
         if let (Ok(now), Ok(mut before)) = (tcgetattr(std::io::stdin().as_raw_fd()), BEFORE.lock()) {
             *before = Some(now);
         }
+    }
+
+    /// Forgets what was typed and not read yet.
+    pub fn discard() {
+        let _ = tcflush(std::io::stdin().as_raw_fd(), FlushArg::TCIFLUSH);
     }
 
     /// Makes it so again.
@@ -26,11 +31,15 @@ mod unix {
 }
 
 #[cfg(unix)]
-pub use unix::{remember, restore};
+pub use unix::{discard, remember, restore};
 
 /// There is no such thing.
 #[cfg(not(unix))]
 pub fn remember() {}
+
+/// There is no such thing.
+#[cfg(not(unix))]
+pub fn discard() {}
 
 /// There is no such thing.
 #[cfg(not(unix))]

@@ -151,6 +151,10 @@ impl Prompt {
             Command::Start => return self.start(say),
             Command::Stop => self.stop(say),
             Command::Release => return self.release(say),
+            Command::Step(_) | Command::Run(_) if self.has_lost_link => {
+                self.is_beyond_reach(say);
+                return Answer::Wrong;
+            }
             Command::Step(ticks) => self.drive(ticks, Until::Over, interrupted, say),
             Command::RunUntil(condition) => return self.run_until(condition, interrupted, say),
             Command::Why(time) => return self.why(time, say),
@@ -208,22 +212,21 @@ impl Prompt {
             Some(Line::With(in_force)) => {
                 let values: Result<Vec<_>, _> = in_force.values.iter().map(|drive| self.value(drive, &known)).collect();
                 match values {
-                    Ok(values) => values.into_iter().for_each(|(_, value)| self.now.name(value)),
+                    Ok(values) => values.into_iter().for_each(|(_, value)| self.name(value)),
                     Err(what) => return wrong(&what, say),
                 }
                 self.loaded.lines.put_in_force(in_force);
                 self.entered.push(text.to_string());
-                self.pin_names();
             }
             Some(Line::Value(drive)) => match self.value(&drive, &known) {
                 Ok((program, value)) => {
                     let text = number::brief(&program.texts, &value.shape, &value.words);
                     if value.name.is_empty() {
-                        say(Say::Text(&text));
+                        let lost = if self.has_lost_link { "  (told before the link was lost)" } else { "" };
+                        say(Say::Text(&format!("{text}{lost}")));
                     } else {
                         say(Say::Text(&format!("{} = {text}", value.name)));
-                        self.now.name(value);
-                        self.pin_names();
+                        self.name(value);
                     }
                 }
                 Err(what) => return wrong(&what, say),
@@ -233,11 +236,14 @@ impl Prompt {
         Answer::Done
     }
 
-    /// Keeps the moment in which something has got a name; but a tick that has been decided follows from earlier ones.
-    fn pin_names(&mut self) {
-        if !(self.is_on_link() && self.now.is_decided()) {
-            self.past.pin(&self.now);
+    /// Gives a value its name, and keeps that it has got it now; a tick that has been decided follows from earlier ones.
+    fn name(&mut self, value: Named) {
+        if self.is_on_link() && self.now.is_decided() {
+            self.past.note_name(self.now.tick + 1, value.clone());
+            return self.now.name(value);
         }
+        self.now.name(value);
+        self.past.pin(&self.now);
     }
 
     /// The values that a line can name: what the running mission knows, innermost first, then what was named at the prompt.
@@ -362,6 +368,9 @@ impl Prompt {
             Ok(machine) => machine,
             Err(what) => return wrong(&what, say),
         };
+        if let Some(what) = self.cannot_begin(&machine) {
+            return wrong(&what, say);
+        }
         let left = drive.value.unwrap_or_else(Left::nothing);
         self.now.put(Some(Task::line(machine, left, drive.vars, text)));
         self.past.pin(&self.now);
@@ -423,6 +432,9 @@ impl Prompt {
     }
 
     fn stop(&mut self, say: &mut Listener) {
+        if self.is_on_link() {
+            return self.stop_on_link(say);
+        }
         self.now.put(None);
         self.past.pin(&self.now);
         say(Say::Text(&format!("{}  stopped", self.now.place())));

@@ -55,7 +55,7 @@ impl Prompt {
             return wrong("that moment is not remembered any more", say);
         };
         while moment.tick < tick {
-            if let Err(error) = moment.step(&mut |_| {}) {
+            if let Err(error) = self.past.go_on(&mut moment) {
                 return wrong(&error.to_string(), say);
             }
         }

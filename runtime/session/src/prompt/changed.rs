@@ -110,6 +110,12 @@ impl Prompt {
             say(Say::Error("this changes the world, which has begun", Some(help)));
             return None;
         }
+        let origin = |loaded: &Loaded| loaded.mission.as_ref().and_then(|program| program.mission.origin);
+        if self.is_on_link() && origin(&loaded) != origin(&self.loaded) {
+            let help = "leave, and open the prompt again: the link's positions count from where the area was";
+            say(Say::Error("this changes where the mission's frame lies on the globe", Some(help)));
+            return None;
+        }
         let before = std::mem::replace(&mut self.loaded, loaded);
         let entered = std::mem::take(&mut self.entered);
         for text in &entered {

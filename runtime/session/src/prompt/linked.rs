@@ -1,11 +1,13 @@
 //! A vehicle at the end of a link. Its time goes on while nobody types: whoever waits for the next line calls [`Prompt::idle`] again and
 //! again. What was told of it is kept, so that `why` and `plot` go through the past as in simulation; nothing of the past is driven again.
 
-use super::moment::Moment;
+use super::moment::{Moment, RECENT_TICKS};
 use super::opening::Opening;
 use super::vehicle::{LinkedVehicle, PromptVehicle};
 use super::{Answer, Listener, OpenError, Prompt, Say};
-use albacore_vehicle::{Control, Vehicle, VehicleError};
+use albacore_machine::Machine;
+use albacore_program::senses;
+use albacore_vehicle::{Control, TICK_S, Vehicle, VehicleError};
 
 /// So long is listened before the first line, for what the vehicle tells once a second to be known in it: 2 s.
 const LISTEN_TICKS: u64 = 20;
@@ -87,6 +89,11 @@ impl Prompt {
         if self.now.has_left() {
             self.now.give_back()?;
         }
+        if self.now.is_adrift() {
+            self.now.give_back()?;
+            let what = "the vehicle tells neither heading nor depth, and cannot be told to lie still: it is given back";
+            say(Say::Error(what, None));
+        }
         if self.now.snapshot.control == Control::TimedOut {
             self.has_lost_link = true;
             say(Say::Error("the link is lost", Some(LOST)));
@@ -104,8 +111,14 @@ impl Prompt {
     /// Gives the vehicle back, and listens on.
     pub(super) fn release(&mut self, say: &mut Listener) -> Answer {
         if !self.is_on_link() {
-            say(Say::Error("a simulated vehicle is nobody else's", Some("`stop` ends what is under way")));
+            say(Say::Error(
+                "there is no link, and nobody to give the vehicle back to",
+                Some("`stop` ends what is under way"),
+            ));
             return Answer::Wrong;
+        }
+        if let Some(answer) = self.is_beyond_reach(say) {
+            return answer;
         }
         if self.now.task.is_some() {
             self.stop(say);
@@ -116,6 +129,43 @@ impl Prompt {
             Err(error) => self.lose_link(&error, say),
         }
         Answer::Done
+    }
+
+    /// Ends what is under way, and withdraws a request for control that was not answered yet.
+    pub(super) fn stop_on_link(&mut self, say: &mut Listener) {
+        self.now.put(None);
+        self.past.pin(&self.now);
+        let control = self.now.snapshot.control;
+        let is_ours = matches!(control, Control::InControl | Control::Suspended);
+        if self.has_lost_link {
+            return say(Say::Error("the link is lost: nothing can be stopped", Some(LOST)));
+        }
+        if !self.now.is_asked() {
+            return say(Say::Text("nothing of ours is under way: the vehicle drives itself"));
+        }
+        if !is_ours && let Err(error) = self.now.give_back() {
+            return self.lose_link(&error, say);
+        }
+        match is_ours {
+            true => say(Say::Text(&format!("{}  stopped", self.now.place()))),
+            false => say(Say::Text("control is not asked for any more: the vehicle drives itself")),
+        }
+    }
+
+    /// Why a statement is not begun on a vehicle at the end of a link, if it is not.
+    pub(super) fn cannot_begin(&self, machine: &Machine) -> Option<String> {
+        if !self.is_on_link() {
+            return None;
+        }
+        let program = machine.program();
+        if let Some(action) = program.asks.first() {
+            return Some(format!("this asks `{action}` of a payload, and no link carries that"));
+        }
+        let is_missing = |name: &&str| {
+            program.inputs.iter().position(|input| input.name == *name).is_some_and(|at| !machine.has_sample(at as u32))
+        };
+        let missing = [senses::POSITION, senses::HEADING].into_iter().find(is_missing)?;
+        Some(format!("`{missing}` was not told, or not believed, for {} s", RECENT_TICKS as f64 * TICK_S))
     }
 
     /// Refuses what can be done with a vehicle alone whose time goes back.

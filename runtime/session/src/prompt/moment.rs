@@ -10,17 +10,18 @@ use albacore_navigation::Trust;
 use albacore_program::{ReportSite, number, senses};
 use albacore_sim::Simulator;
 use albacore_trace::{BehaviorTrace, Header};
-use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, VehicleError};
-use std::collections::VecDeque;
+use albacore_vehicle::{Command, Control, Sample, Snapshot, TICK_S, VehicleError, Vertical};
+use std::collections::{BTreeMap, VecDeque};
 
 /// What was sensed in so many ticks is kept for what begins later: 20 s, longer than any sensor is silent.
-const RECENT_TICKS: usize = 200;
+pub(super) const RECENT_TICKS: usize = 200;
 /// Ticks between the moments that are kept, at first: a minute. What lies between is computed anew.
 const KEPT_EVERY_TICKS: u64 = 600;
 /// So many of them are kept; then every other goes, and their distance doubles.
 const KEPT_MAX: usize = 64;
-/// So many moments are kept in which something was begun or ended.
+/// So many moments are kept in which something was begun or ended; of a vehicle at the end of a link, which is no world, more.
 const PINNED_MAX: usize = 64;
+const PINNED_ON_LINK_MAX: usize = 1000;
 
 /// The vehicle and what it is doing, with a tick that is sensed and not yet commanded.
 #[derive(Clone)]
@@ -333,10 +334,18 @@ impl Moment {
         }
         if self.still.is_none() {
             let number = |name| self.sensed(name).map(|reading| reading[0]);
-            let (heading, depth) = (number(senses::HEADING)?, number(senses::DEPTH)?);
-            self.still = Some(Command::still(Heading::from_radians(heading), depth));
+            let told = self.command.as_ref();
+            let heading = number(senses::HEADING).map(Heading::from_radians).or(told.map(|told| told.heading))?;
+            let vertical = number(senses::DEPTH).map(Vertical::Depth).or(told.map(|told| told.vertical))?;
+            self.still = Some(Command::new(heading, 0.0, vertical));
         }
         self.still
+    }
+
+    /// Whether a vehicle at the end of a link is ours and cannot be told to lie still: it tells too little, and was told nothing yet.
+    pub fn is_adrift(&mut self) -> bool {
+        let is_idle = self.vehicle.is_linked() && self.task.is_none() && self.claim.is_asked();
+        is_idle && self.snapshot.control == Control::InControl && self.still().is_none()
     }
 
     /// Whether what is done in this tick has been decided.
@@ -399,11 +408,13 @@ pub struct Past {
     every: u64,
     kept: Vec<Moment>,
     pinned: Vec<Moment>,
+    /// What has got a name, or a value, from a tick on, where no moment was pinned.
+    named: BTreeMap<u64, Vec<Named>>,
 }
 
 impl Past {
     pub fn beginning_with(moment: &Moment) -> Self {
-        Past { every: KEPT_EVERY_TICKS, kept: Vec::new(), pinned: vec![moment.clone()] }
+        Past { every: KEPT_EVERY_TICKS, kept: Vec::new(), pinned: vec![moment.clone()], named: BTreeMap::new() }
     }
 
     /// Keeps a moment now and then.
@@ -424,12 +435,25 @@ impl Past {
         // A moment noted in the same tick is as it was before.
         self.kept.retain(|m| m.tick != moment.tick);
         self.pinned.push(moment.clone());
-        if self.pinned.len() > PINNED_MAX {
+        let most = if moment.vehicle.is_linked() { PINNED_ON_LINK_MAX } else { PINNED_MAX };
+        if self.pinned.len() > most {
             let forgotten = self.pinned.remove(0).tick;
             // What follows from the forgotten one alone cannot be told from what follows from the next.
             let next = self.pinned.first().map_or(forgotten, |m| m.tick);
             self.kept.retain(|m| m.tick > next);
         }
+    }
+
+    /// Something has got a name, or a value, from a tick on.
+    pub fn note_name(&mut self, tick: u64, named: Named) {
+        self.named.entry(tick).or_default().push(named);
+    }
+
+    /// Lets a tick go by in a moment that was.
+    pub fn go_on(&self, moment: &mut Moment) -> Result<bool, VehicleError> {
+        let has_ended = moment.step(&mut |_| {})?;
+        self.named.get(&moment.tick).into_iter().flatten().for_each(|named| moment.name(named.clone()));
+        Ok(has_ended)
     }
 
     /// The latest moment that is kept up to a tick.
@@ -452,6 +476,7 @@ impl Past {
     pub fn forget_before(&mut self, tick: u64) {
         self.kept.retain(|m| m.tick >= tick);
         self.pinned.retain(|m| m.tick >= tick);
+        self.named.retain(|of, _| *of >= tick);
     }
 
     /// What lay ahead has not been.

@@ -109,7 +109,7 @@ impl Prompt {
             if moment.tick >= last || moment.is_over {
                 return Ok(series);
             }
-            moment.step(&mut |_| {}).map_err(|error| error.to_string())?;
+            self.past.go_on(&mut moment).map_err(|error| error.to_string())?;
             // What was begun then, or got a value, follows from no earlier moment.
             if let Some(pinned) = self.past.pinned_at(moment.tick) {
                 moment = pinned.clone();

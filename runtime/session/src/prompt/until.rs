@@ -4,6 +4,7 @@ use super::command::TICKS_MAX;
 use super::{Answer, Line, Listener, Prompt, Say};
 use albacore_machine::{Event, Machine};
 use albacore_program::Slot;
+use albacore_vehicle::{Control, Snapshot};
 use std::sync::atomic::AtomicBool;
 
 /// What is waited for.
@@ -67,13 +68,17 @@ impl Condition {
                 }
             }
         }
-        self.machine.step(&prompt.now.snapshot);
+        // It is the prompt that asks, whoever drives.
+        self.machine.step(&Snapshot { control: Control::InControl, ..prompt.now.snapshot.clone() });
         self.holds |= self.machine.outcome().is_some();
     }
 }
 
 impl Prompt {
     pub(super) fn run_until(&mut self, text: &str, interrupted: &AtomicBool, say: &mut Listener) -> Answer {
+        if let Some(answer) = self.is_beyond_reach(say) {
+            return answer;
+        }
         if self.now.task.is_none() {
             let help = "a statement or `start` gives the vehicle something to do";
             say(Say::Error("nothing is under way", Some(help)));
