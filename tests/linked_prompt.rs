@@ -51,27 +51,32 @@ fn a_vehicle_is_driven_line_by_line_and_given_back() {
     let said = stdout(&output);
     let parts = [
         "home = (",
-        "control  in control",
-        "goes on while you type: `stop` ends it",
         "depth 3.0 m",
         "steer 90 deg\nno rule was there to be tried",
         "  stopped",
         "heading",
-        "excursion begins, and goes on while you type",
-        "enter    excursion",
         "still under way",
         "excursion\nno rule was there to be tried",
         "the vehicle is given back: its own computer drives it, and we listen",
         "depth",
     ];
-    in_order(&said, &parts[..9]);
-    in_order(&said, &parts[10..]);
+    in_order(&said, &parts[..5]);
+    in_order(&said, &parts[6..]);
+    // When these come is the vehicle's to say.
+    for part in [
+        "control  in control",
+        "goes on while you type: `stop` ends it",
+        "excursion begins, and goes on",
+        "enter    excursion",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
     vehicle.says("override taken");
     vehicle.says("override released");
     // Who only listens asks for nothing.
     let (before, output) = (vehicle.said(), session(&vehicle, &[], "depth\nrun 2 s\nchemical\n"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).starts_with("3 m\n") && stdout(&output).ends_with("0 %\n"), "{}", stdout(&output));
+    assert!(stdout(&output).starts_with("3 m\n") && stdout(&output).ends_with(" %\n"), "{}", stdout(&output));
     assert!(!vehicle.said()[before.len()..].contains("override taken"));
 }
 
