@@ -196,9 +196,9 @@ impl Meanwhile {
 /// Why a session is over.
 enum Left {
     ByPerson,
-    /// The system asks the program to end.
+    /// The system asks the program to end, or Ctrl-C does, where nobody types: whoever waits for the next line waits on.
     ByRequest,
-    /// Ctrl-C, where nobody types.
+    /// Ctrl-C in a line that nobody typed.
     Interrupted,
 }
 
@@ -237,7 +237,7 @@ impl Driver {
             }
         };
         if by_request {
-            // Whoever waits for a line waits on, and a terminal may hold who writes.
+            // A terminal may hold who writes.
             super::terminal::restore();
             within(LAST_WORDS, move || told.iter().for_each(|heard| hear(heard.say())));
             std::process::exit(exit as i32);
@@ -253,9 +253,9 @@ impl Driver {
                 return Left::ByRequest;
             }
             let is_interrupted = self.interrupted.swap(false, Ordering::Relaxed);
-            // The next of lines that nobody types would set it in motion again.
+            // The next of lines that nobody types would set it in motion again, and may never come.
             if is_interrupted && !self.is_typed {
-                return Left::Interrupted;
+                return Left::ByRequest;
             }
             if is_interrupted && self.prompt.is_busy() {
                 let never = AtomicBool::new(false);
