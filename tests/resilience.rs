@@ -1,4 +1,4 @@
-//! How well a broken script is told where it is broken: each script loses every 40th of its tokens in turn, and is cut off
+//! How well a broken script is told where it is broken: each script loses every 24th of its tokens in turn, and is cut off
 //! after each of them. The figures of all tokens, and what is not told well, are printed by
 //!
 //! ```text
@@ -26,7 +26,7 @@ const NEAR_LINES: usize = 1;
 /// More errors than this are a cascade.
 const ERRORS_MAX: usize = 3;
 /// Every how manieth token counts: all of them take minutes.
-const EVERY: usize = 40;
+const EVERY: usize = 24;
 /// What must be told in place, in hundredths.
 const FLOOR: usize = 90;
 
