@@ -9,7 +9,7 @@ use crate::held::Terminal;
 use std::io::Write;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, ChildStdin, Command, Output, Stdio};
 
 fn vehicle(folder: &Path) -> Vehicle {
     Vehicle::serve_at(SLOW_RATE, &format!("{EXCURSION}#bay"), "udp:127.0.0.1:0?dialect=recon", folder)
@@ -21,10 +21,17 @@ fn prompt(vehicle: &Vehicle, more: &[&str]) -> Command {
     command
 }
 
+/// A session that begins with these lines, and its input, which stays open.
+fn begun(mut prompt: Command, lines: &str) -> (Child, ChildStdin) {
+    let mut child = prompt.stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(lines.as_bytes()).unwrap();
+    (child, input)
+}
+
 /// A session of these lines, to the end of its input.
 fn session(vehicle: &Vehicle, more: &[&str], lines: &str) -> Output {
-    let mut child = prompt(vehicle, more).stdin(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+    let (child, _) = begun(prompt(vehicle, more), lines);
     child.wait_with_output().unwrap()
 }
 
@@ -96,6 +103,12 @@ fn what_only_a_simulated_vehicle_does_is_refused() {
         "a mission under way on a vehicle is not changed",
     ];
     in_order(&said, &parts);
+    let long = "1 + ".repeat(20_000) + "1\n";
+    let asks =
+        "payload camera { start() -> Bool }\nsteer 90 deg\nlet shot = ask camera.start() within 10 s\nbehavior\n";
+    let output = session(&vehicle, &[], &(asks.to_string() + &long));
+    in_order(&stderr(&output), &["no link carries that", "65536 bytes at most"]);
+    in_order(&stdout(&output), &["goes on while you type", "steer 90 deg\n"]);
     let nothing = empty("prompt-usage");
     for words in
         [vec!["repl", "--link", "udp:127.0.0.1:1"], vec!["repl", EXCURSION, "--link", "udp:127.0.0.1:1", "--in", "bay"]]
@@ -112,8 +125,10 @@ fn what_only_a_simulated_vehicle_does_is_refused() {
 fn a_guest_drives_in_its_overrides_alone_at_the_prompt() {
     let folder = empty("prompt-guest");
     let vehicle = vehicle(&folder);
-    let output = session(&vehicle, &["--mission", "visit"], "start\nrun\nquit\n");
+    let output = session(&vehicle, &["--mission", "visit"], "start\nrun until depth > 2 m\nrun\nquit\n");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // It watches for 5 s, in which the vehicle is not ours.
+    in_order(&stdout(&output), &["depth > 2 m\n", "control  in control"]);
     assert_eq!(vehicle.said().matches("override taken").count(), 2, "{}", vehicle.said());
     assert_eq!(vehicle.said().matches("override released").count(), 2, "{}", vehicle.said());
     in_order(&stdout(&output), &["completed, the vehicle is", "completed, the vehicle is", "end      completed"]);
@@ -123,9 +138,7 @@ fn a_guest_drives_in_its_overrides_alone_at_the_prompt() {
 fn a_vehicle_that_goes_away_is_told_at_the_prompt() {
     let folder = empty("prompt-away");
     let mut vehicle = vehicle(&folder);
-    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input.write_all(b"steer 90 deg\n").unwrap();
+    let (child, mut input) = begun(prompt(&vehicle, &[]), "steer 90 deg\n");
     vehicle.says("override taken");
     vehicle.child.kill().unwrap();
     input.write_all(b"run 10 min\nsteer 3 deg\nplot depth\nquit\n").unwrap();
@@ -140,9 +153,8 @@ fn a_vehicle_that_goes_away_is_told_at_the_prompt() {
 fn ctrl_c_ends_a_session_of_a_pipe() {
     let folder = empty("prompt-pipe");
     let vehicle = vehicle(&folder);
-    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input.write_all(b"goto point(north: 150 m, east: 0 m)\ngoto point(north: 0 m, east: 0 m)\n").unwrap();
+    let lines = "goto point(north: 150 m, east: 0 m)\ngoto point(north: 0 m, east: 0 m)\n";
+    let (child, _input) = begun(prompt(&vehicle, &[]), lines);
     vehicle.says("override taken");
     std::thread::sleep(std::time::Duration::from_millis(300));
     send("-INT", &child);
@@ -157,9 +169,7 @@ fn ctrl_c_ends_a_session_of_a_pipe() {
 fn ctrl_c_between_two_lines_ends_a_session_of_a_pipe() {
     let folder = empty("prompt-between");
     let vehicle = vehicle(&folder);
-    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input.write_all(b"steer 90 deg\n").unwrap();
+    let (mut child, _input) = begun(prompt(&vehicle, &[]), "steer 90 deg\n");
     vehicle.says("override taken");
     send("-INT", &child);
     // Nobody has closed its input.
@@ -180,10 +190,7 @@ fn stop_withdraws_a_request_for_control() {
     std::fs::write(&world, text + slow).unwrap();
     let world = format!("{}#slow", world.display());
     let vehicle = Vehicle::serve_at(SLOW_RATE, &world, "udp:127.0.0.1:0?dialect=recon", &folder);
-    let mut child = prompt(&vehicle, &[]).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input.write_all(b"stop\nsteer 90 deg\nrun 2 s\nstop\nrun 15 s\nquit\n").unwrap();
-    let output = child.wait_with_output().unwrap();
+    let output = session(&vehicle, &[], "stop\nsteer 90 deg\nrun 2 s\nstop\nrun 15 s\nquit\n");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let parts = ["nothing of ours is under way", "goes on while you type", "control is not asked for any more"];
     in_order(&stdout(&output), &parts);
@@ -198,14 +205,11 @@ fn what_was_named_is_plotted_as_it_was_and_the_frame_stays_where_it_is() {
     let text = std::fs::read_to_string(EXCURSION).unwrap();
     std::fs::write(&script, &text).unwrap();
     let mut command = albacore(&["repl", script.to_str().unwrap(), "--link", &vehicle.link]);
-    let mut child = command.args(SLOW_RATE).stdin(Stdio::piped()).spawn().unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input
-        .write_all(b"steer 90 deg\nvar x = 1\nrun 5 s\nx = 5\nrun 5 s\nplot x\nrun until depth > 2 m\nstop\n")
-        .unwrap();
+    command.args(SLOW_RATE);
+    let (child, mut input) = begun(command, "steer 90 deg\nvar x = 1\nrun 5 s\nx = 5\nrun 5 s\nplot x\nstop\n");
     vehicle.says("override taken");
     std::fs::write(&script, text.replace("36°10.8'N", "36°10.83'N")).unwrap();
-    input.write_all(b"reload\nask camera\nquit\n").unwrap();
+    input.write_all(b"reload\nquit\n").unwrap();
     let output = child.wait_with_output().unwrap();
     let said = stdout(&output);
     let has = |value: &str| said.lines().any(|line| line.starts_with(&format!("       {value} ")));
@@ -242,6 +246,9 @@ fn what_happens_is_printed_above_the_line_and_ctrl_c_stops_the_motion() {
     terminal.says("stopped");
     // What is typed before the editor is there is dropped, too.
     std::thread::sleep(std::time::Duration::from_millis(500));
+    terminal.types("run 1 s\r");
+    // Who had gone on to the second goal would be answered there, below -140 m.
+    terminal.says("at (-9");
     terminal.types("start\r");
     terminal.says("begin      goto point(north: -20 m");
     terminal.types("\x1a");

@@ -321,7 +321,10 @@ impl Prompt {
     fn unsensed(&self, name: &str) -> String {
         let delivered = self.now.vehicle.measurements();
         if senses::ALWAYS_THERE.contains(&name) || delivered.iter().any(|measurement| measurement.name == name) {
-            return format!("`{name}` has not been sensed yet; let time go by with `run 30 s`");
+            return match self.is_on_link() {
+                true => linked::untold(name),
+                false => format!("`{name}` has not been sensed yet; let time go by with `run 30 s`"),
+            };
         }
         match measurements::ALL.iter().find(|row| row.name == name).and_then(|row| row.instrument) {
             _ if self.is_on_link() => format!("this vehicle does not tell `{name}` over its link"),

@@ -165,7 +165,7 @@ impl Prompt {
             program.inputs.iter().position(|input| input.name == *name).is_some_and(|at| !machine.has_sample(at as u32))
         };
         let missing = [senses::POSITION, senses::HEADING].into_iter().find(is_missing)?;
-        Some(format!("`{missing}` was not told, or not believed, for {} s", RECENT_TICKS as f64 * TICK_S))
+        Some(untold(missing))
     }
 
     /// Refuses what can be done with a vehicle alone whose time goes back.
@@ -181,11 +181,11 @@ impl Prompt {
     /// Ends the session: the vehicle is given back, which takes some seconds at most. An error says that it has not said so.
     pub fn leave(&mut self, say: &mut Listener) -> Result<(), VehicleError> {
         self.now.put(None);
-        let was_asked = self.now.is_asked();
+        let was_ours = matches!(self.now.snapshot.control, Control::InControl | Control::Suspended);
         let Some(vehicle) = self.now.vehicle.port().filter(|_| self.opening.link.is_some()) else { return Ok(()) };
         let released = vehicle.release();
         vehicle.notices().iter().for_each(|notice| say(Say::Text(&format!("vehicle  {notice}"))));
-        if was_asked && released.is_ok() {
+        if was_ours && released.is_ok() {
             say(Say::Text("the vehicle has taken control back"));
         }
         released
@@ -199,4 +199,9 @@ impl Prompt {
         say(Say::Error("the link is lost", Some(LOST)));
         Some(Answer::Wrong)
     }
+}
+
+/// Why nothing is known of an input of a vehicle at the end of a link.
+pub(super) fn untold(name: &str) -> String {
+    format!("`{name}` was not told, or not believed, for {} s", RECENT_TICKS as f64 * TICK_S)
 }
