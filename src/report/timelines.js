@@ -50,6 +50,12 @@
     { title: "salinity", unit: "", height: 58, lines: [line("salinity", "salinity", "green")] },
     { title: "battery", unit: "%", height: 52, from: 0, to: 100, lines: [line("battery", "battery", "green")] },
   ];
+  // What was asked for and has no panel yet gets one of its own.
+  function ownPanels() {
+    const drawn = new Set(PANELS.flatMap((panel) => panel.lines.map(({ name }) => name)));
+    const others = Array.from(report.series.values()).filter(({ name }) => name.startsWith("asked_") && !drawn.has(name));
+    return others.map(({ name, unit }) => ({ title: name.slice(6), unit, height: 64, lines: [line(name, "asked", "orange", { dash: [5, 3] })] }));
+  }
   const isShown = (panel) => has(panel.when ?? panel.lines[0].name) || (panel.when === undefined && panel.lines.some(({ name }) => has(name)));
   const gantt = { title: "active", height: ROW };
   let panels = [];
@@ -93,7 +99,7 @@
     const part = (panel) => ({
       ...panel, lines: panel.lines.filter(({ name }) => has(name)), floor: panel.floors?.find(has), mark: panel.isMarked ? report.detection : undefined,
     });
-    panels = PANELS.filter(isShown).map(part);
+    panels = [...PANELS, ...ownPanels()].filter(isShown).map(part);
     for (const panel of panels) panel.shownRange = rangeOf(panel);
     gantt.height = ROW * Math.max(1, report.levels.length);
     height = laidOut();

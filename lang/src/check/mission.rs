@@ -58,14 +58,15 @@ impl Checker<'_> {
             }
         };
         let value = self.instant(Temporal::No, |c| c.expr_as(right, &setpoint_type(channel), "the limit"));
-        self.not_negative(&value, "the limit");
-        if value.range.high >= 0.0 && value.range.low < 0.0 && value.ty != Type::Unknown {
+        self.sensible_setpoint(channel, &value, "the limit");
+        let row = channel.row();
+        if !row.may_be_negative && value.range.high >= 0.0 && value.range.low < 0.0 && value.ty != Type::Unknown {
             let finding = Diagnostic::error(
                 Code::MissionsLimit,
                 value.span,
                 "this limit may be negative, and would hold nothing",
             );
-            let unit = channel.row().unit;
+            let unit = row.unit;
             self.report(
                 finding.help(format!("give what it is computed from a range of its own: `in 1 {unit}..3 {unit}`")),
             );

@@ -11,6 +11,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
 use albacore_arithmetic::{INT_MAX, LARGEST, Operation, Ticks};
+use albacore_program::Channel;
 use std::f64::consts::TAU;
 
 /// A quantity is this large at most, in metres, seconds and what they make: the sun is nearer.
@@ -77,8 +78,15 @@ impl<'t> Checker<'t> {
         (*ty == Type::Quantity(Dimension::TIME)).then_some(Interval::NOT_NEGATIVE)
     }
 
-    /// A setpoint or a limit of depth, altitude or speed.
-    pub(super) fn not_negative(&mut self, value: &Expr, what: &str) {
+    /// A setpoint or a limit.
+    pub(super) fn sensible_setpoint(&mut self, channel: Channel, value: &Expr, what: &str) {
+        if !channel.row().may_be_negative {
+            self.not_negative(value, what);
+        }
+    }
+
+    /// What is counted from 0 on: a depth, an altitude, a speed.
+    fn not_negative(&mut self, value: &Expr, what: &str) {
         if value.range.high < 0.0 {
             let help = match value.ty {
                 Type::Depth => "depths are counted from the surface down: write it without the sign",

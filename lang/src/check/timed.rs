@@ -287,11 +287,11 @@ impl<'t> Checker<'t> {
         let ty = setpoint_type(channel);
         // `keep depth + 1 m` reads as "keep depth plus one", and would mean "at a depth of +1 m".
         let mut written = &setpoint.value;
+        let row = channel.row();
         if let tree::ExprKind::Unary(op, unsigned) = &written.kind
-            && matches!(op.node, tree::Unary::Pos | tree::Unary::Neg)
+            && (op.node == tree::Unary::Pos || op.node == tree::Unary::Neg && !row.may_be_negative)
         {
             let more = op.node == tree::Unary::Pos;
-            let row = channel.row();
             let (name, unit, meaning) = (row.name, row.unit, row.meaning);
             let (sign, change) = if more { ('+', row.more) } else { ('-', row.less) };
             let help =
@@ -301,7 +301,7 @@ impl<'t> Checker<'t> {
         }
         let what = format!("the {} setpoint", setpoint.channel.node);
         let value = self.expr_as(written, &ty, &what);
-        self.not_negative(&value, &what);
+        self.sensible_setpoint(channel, &value, &what);
         (value.ty != Type::Unknown).then_some((channel, value))
     }
 
@@ -403,7 +403,7 @@ pub(super) fn setpoint_type(channel: Channel) -> Type {
     match channel.row().kind {
         SetpointKind::Depth => Type::Depth,
         SetpointKind::Altitude => Type::Altitude,
-        SetpointKind::Speed => Type::Quantity(Dimension::SPEED),
+        SetpointKind::Quantity(name) => Dimension::of_type(name).map_or(Type::Unknown, Type::Quantity),
     }
 }
 

@@ -1,4 +1,4 @@
-//! One of the three things that a command asks for.
+//! One of the things that a command asks for.
 
 use albacore_geometry::Heading;
 use albacore_geometry::math::radians;
@@ -24,16 +24,18 @@ pub enum SetPoint {
 }
 
 impl SetPoint {
-    /// How many a command has.
+    /// How many a command has at most.
     pub(crate) const PLACES: usize = 3;
 
-    /// Those of a command.
-    pub fn of(command: &Command) -> [SetPoint; Self::PLACES] {
+    /// Those of a command, but for what it leaves open: that is not said.
+    pub fn of(command: &Command) -> impl Iterator<Item = SetPoint> {
         let vertical = match command.vertical {
             Vertical::Depth(depth) => SetPoint::Depth(depth),
             Vertical::Altitude(altitude) => SetPoint::Altitude(altitude),
         };
-        [SetPoint::Heading(command.heading), SetPoint::Speed(command.speed), vertical]
+        [Some(SetPoint::Heading(command.heading)), Some(SetPoint::Speed(command.speed)), Some(vertical)]
+            .into_iter()
+            .flatten()
     }
 
     /// Its place among those of a command.

@@ -72,11 +72,13 @@ pub mod setpoints {
 
 /// The type of a setpoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "each variant is the type of its name")]
 pub enum SetpointKind {
+    /// A depth, counted from the surface down.
     Depth,
+    /// An altitude, counted from the bottom up.
     Altitude,
-    Speed,
+    /// A quantity, by the name that the language has for its type.
+    Quantity(&'static str),
 }
 
 /// What tells that a setpoint is set.
@@ -113,6 +115,8 @@ pub struct Setpoint {
     pub mark: Mark,
     /// Whether 0 is within any limits: a vehicle may always stand still.
     pub is_free_at_zero: bool,
+    /// Whether less than 0 means something.
+    pub may_be_negative: bool,
 }
 
 /// The rows, and each channel's name: its place among them.
@@ -153,6 +157,7 @@ setpoints! {
         word: setpoints::METRES,
         mark: Mark::Word(setpoints::VERTICAL, setpoints::DEPTH),
         is_free_at_zero: false,
+        may_be_negative: false,
     };
     /// Metres above the bottom.
     Altitude: Setpoint {
@@ -167,12 +172,13 @@ setpoints! {
         word: setpoints::METRES,
         mark: Mark::Word(setpoints::VERTICAL, setpoints::ALTITUDE),
         is_free_at_zero: false,
+        may_be_negative: false,
     };
     /// Metres per second.
     Speed: Setpoint {
         name: "speed",
         axis: Axis::Speed,
-        kind: SetpointKind::Speed,
+        kind: SetpointKind::Quantity("Speed"),
         unit: "m/s",
         meaning: "that speed",
         more: "faster",
@@ -181,6 +187,7 @@ setpoints! {
         word: setpoints::SPEED,
         mark: Mark::Unless(setpoints::NO_SPEED),
         is_free_at_zero: true,
+        may_be_negative: false,
     };
 }
 

@@ -4,12 +4,11 @@ use crate::plan::{Plan, PlanError};
 use crate::recorders::Recorder;
 use crate::recorders::trace::Trace;
 use crate::replay::{Replay, ReplayedStep};
-use albacore_geometry::math;
 use albacore_machine::{Machine, Phase};
 use albacore_program::number;
 use albacore_trace::journal::{Ending, Reader};
 use albacore_trace::{Step, TriedCondition, is_decision};
-use albacore_vehicle::{Command, TICK_S};
+use albacore_vehicle::{COMMANDED, Command, TICK_S};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
@@ -159,11 +158,9 @@ fn is_read(input: &InputAge, conditions: &[TriedCondition]) -> bool {
 
 /// A command in words, with so many digits more than usual.
 pub(crate) fn told(command: &Command, more: u8) -> String {
-    use albacore_vehicle::Vertical::{Altitude, Depth};
-    let vertical = match command.vertical {
-        Depth(depth) => format!("depth {} m", number::fixed(depth, 2 + more)),
-        Altitude(altitude) => format!("altitude {} m", number::fixed(altitude, 2 + more)),
-    };
-    let heading = number::fixed(math::degrees(command.heading.radians()), 2 + more);
-    format!("heading {heading} deg, {} m/s through the water, {vertical}", number::fixed(command.speed, 3 + more))
+    let said = COMMANDED.iter().filter_map(|part| {
+        let (before, after) = part.said;
+        Some(format!("{before}{}{after}", number::fixed((part.value)(command)?, part.digits + more)))
+    });
+    said.collect::<Vec<_>>().join(", ")
 }

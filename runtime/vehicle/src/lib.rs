@@ -3,17 +3,18 @@
 //! The simulator, a vehicle at the end of a serial line and the replay of a journal are all a [`Vehicle`]. The machine that
 //! executes a program sees nothing else of them.
 
+mod command;
 mod limits;
 pub mod measurements;
 mod quantity;
 pub mod rate;
 mod truth;
 
+pub use command::{COMMANDED, Command, Commanded, Vertical};
 pub use limits::{Beyond, LimitWatch, Limits};
 pub use quantity::Quantity;
 pub use truth::Truth;
 
-use albacore_geometry::Heading;
 use serde::{Deserialize, Serialize};
 
 /// The control period: one tick, in seconds.
@@ -159,38 +160,6 @@ impl Snapshot {
             _ => reading.iter_mut().zip(numbers).for_each(|(slot, number)| *slot = *number),
         }
         self.samples.push(Sample { measurement, reading });
-    }
-}
-
-/// What the vertical measurement is to hold.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Vertical {
-    /// Metres below the surface.
-    Depth(f64),
-    /// Metres above the bottom.
-    Altitude(f64),
-}
-
-/// What the vehicle is to do during the coming tick. Goals latch: they hold until the next command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Command {
-    /// Heading through the water.
-    pub heading: Heading,
-    /// Speed through the water, in m/s.
-    pub speed: f64,
-    /// Depth or altitude.
-    pub vertical: Vertical,
-}
-
-impl Command {
-    /// To go on a heading at a speed, m/s, at a depth or an altitude.
-    pub const fn new(heading: Heading, speed: f64, vertical: Vertical) -> Self {
-        Command { heading, speed, vertical }
-    }
-
-    /// To lie still at a depth.
-    pub const fn still(heading: Heading, depth: f64) -> Self {
-        Command::new(heading, 0.0, Vertical::Depth(depth))
     }
 }
 

@@ -1,4 +1,4 @@
-//! One of the three set-points of a command: what is asked, whether the vehicle has taken it up, and when it is said again.
+//! One of the set-points of a command: what is asked, whether the vehicle has taken it up, and when it is said again.
 
 use super::ControllerSide;
 use crate::set_point::SetPoint;

@@ -14,7 +14,7 @@ use albacore_program::{ActivityId, Body, Program};
 use albacore_trace::journal::JournalHeader;
 use albacore_trace::{Step, TickRecord};
 use albacore_vehicle::measurements::{self, CHEMICAL};
-use albacore_vehicle::{Quantity, Vertical};
+use albacore_vehicle::{COMMANDED, Quantity};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -28,10 +28,6 @@ const KNOWN: [(&str, &str, u8); Known::COUNT] = [
     ("east", "m", 1),
     ("true_north", "m", 1),
     ("true_east", "m", 1),
-    ("asked_heading", "deg", 1),
-    ("asked_speed", "m/s", 2),
-    ("asked_depth", "m", 2),
-    ("asked_altitude", "m", 2),
     ("true_depth", "m", 2),
     ("true_bottom", "m", 2),
     ("true_water_speed", "m/s", 2),
@@ -43,10 +39,6 @@ enum Known {
     East,
     TrueNorth,
     TrueEast,
-    AskedHeading,
-    AskedSpeed,
-    AskedDepth,
-    AskedAltitude,
     TrueDepth,
     TrueBottom,
     TrueWaterSpeed,
@@ -66,6 +58,8 @@ struct Shown {
 pub(super) struct Fold {
     program: Arc<Program>,
     known: Vec<Column>,
+    /// What was commanded, in the order of [`COMMANDED`].
+    asked: Vec<Column>,
     /// By the number of each measurement.
     measured: Vec<Option<Shown>>,
     detection: Option<f64>,
@@ -158,6 +152,10 @@ impl Fold {
             in_tables: program.activities.iter().flat_map(|activity| behaviors(&activity.body)).collect(),
             program,
             known: KNOWN.map(|(name, unit, decimals)| Column::new(name, unit, decimals)).into(),
+            asked: COMMANDED
+                .iter()
+                .map(|part| Column::new(format!("asked_{}", part.name), part.unit, part.digits))
+                .collect(),
             measured: header.measurements.iter().map(|measurement| shown(&measurement.name)).collect(),
             detection: has_plume.then_some(DETECTION),
             spans: SpanFold::default(),
@@ -173,6 +171,7 @@ impl Fold {
     pub fn finish(self, ticks: u64) -> Folded {
         let (activities, tables) = (self.activities(0), self.tables());
         let mut columns = self.known;
+        columns.extend(self.asked);
         columns.extend(self.measured.into_iter().flatten().flat_map(|shown| shown.columns));
         columns.retain(Column::is_there);
         let (happenings, left_out) = self.happenings.finish();
@@ -231,7 +230,8 @@ impl Fold {
     /// What has come since that. The last slot may have become other, and is told again.
     pub fn since(&self, known: &Counts) -> NewParts {
         let measured = self.measured.iter().flatten().flat_map(|shown| &shown.columns);
-        let columns = self.known.iter().chain(measured).filter(|column| column.is_there_since(known.slot));
+        let columns =
+            self.known.iter().chain(&self.asked).chain(measured).filter(|column| column.is_there_since(known.slot));
         let colours = self.colours.iter().skip(known.slot);
         let (happenings, left_out) = self.happenings.since(known.lines);
         NewParts {
@@ -252,7 +252,7 @@ impl Fold {
     /// Half as many numbers of everything.
     fn halve(&mut self) {
         let measured = self.measured.iter_mut().flatten().flat_map(|shown| &mut shown.columns);
-        self.known.iter_mut().chain(measured).for_each(Column::halve);
+        self.known.iter_mut().chain(&mut self.asked).chain(measured).for_each(Column::halve);
         // As of the series: the first stands for 0 alone, and of two seconds the later one.
         let (first, rest) = self.colours.split_at(self.colours.len().min(1));
         let later = rest.chunks(2).filter_map(|pair| pair.last());
@@ -290,12 +290,8 @@ impl Fold {
             set(Known::TrueWaterSpeed, (over_ground - truth.flow).length());
         }
         if let Some(command) = &record.command {
-            set(Known::AskedHeading, command.heading.degrees());
-            set(Known::AskedSpeed, command.speed);
-            match command.vertical {
-                Vertical::Depth(depth) => set(Known::AskedDepth, depth),
-                Vertical::Altitude(altitude) => set(Known::AskedAltitude, altitude),
-            }
+            let parts = self.asked.iter_mut().zip(&COMMANDED);
+            parts.for_each(|(column, part)| (part.value)(command).into_iter().for_each(|x| column.set(slot, x)));
         }
         for sample in &record.snapshot.samples {
             let Some(Some(shown)) = self.measured.get_mut(usize::from(sample.input_measurement())) else { continue };

@@ -136,15 +136,16 @@ impl Memory {
     }
 }
 
-/// An echo is no acceptance, but it was heard: what `#S` tells of the goals, it tells better. Of speed and altitude it tells
-/// nothing.
+/// An echo is no acceptance, but it was heard: what `#S` tells of the goals, heading and depth, it tells better. Of the others it
+/// tells nothing.
 fn take_in_echo(text: &str, received: &mut Received) {
-    match ToVehicle::parse(&format!("C,{text}")) {
+    let Ok(echo) = ToVehicle::parse(&format!("C,{text}")) else { return };
+    match (&echo, echo.set_point()) {
+        (ToVehicle::Heading(heading), _) => received.heading_heard(*heading),
+        (ToVehicle::Depth(_), _) => {}
         // Ours are in metres a second: an echo in another unit is of someone else's.
-        Ok(ToVehicle::Speed(SpeedGoal::MetresPerSecond(speed))) => received.accepted(SetPoint::Speed(speed)),
-        Ok(other @ ToVehicle::Speed(_)) => received.other_speed(format!("#{other}")),
-        Ok(ToVehicle::Altitude(altitude)) => received.accepted(SetPoint::Altitude(altitude)),
-        Ok(ToVehicle::Heading(heading)) => received.heading_heard(heading),
-        _ => {}
+        (ToVehicle::Speed(SpeedGoal::Rpm(_) | SpeedGoal::Knots(_)), _) => received.other_speed(format!("#{echo}")),
+        (_, Some(set_point)) => received.accepted(set_point),
+        (_, None) => {}
     }
 }

@@ -9,7 +9,7 @@ use albacore_geometry::{Heading, Point, TangentFrame};
 use albacore_program::{ActivityId, Program, Shape};
 use albacore_trace::{TickRecord, control_name};
 use albacore_vehicle::measurements::{self, info, number};
-use albacore_vehicle::{Command, Measurement, Quantity, Reading, Sample, Truth, Vertical};
+use albacore_vehicle::{COMMANDED, Command, Commanded, Measurement, Quantity, Reading, Sample, Truth};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -47,12 +47,12 @@ const SIGMA: usize = 4;
 const PLACE: [(&str, &str); 5] =
     [("north", "m"), ("east", "m"), ("latitude", "deg"), ("longitude", "deg"), ("sigma", "m")];
 
-/// What is commanded: name, unit, role.
-const COMMANDED: [(&str, &str, Role); 4] = [
-    ("heading", "deg", Role::CommandedHeading),
-    ("speed", "m/s", Role::CommandedSpeed),
-    ("depth", "m", Role::CommandedDepth),
-    ("altitude", "m", Role::CommandedAltitude),
+/// What other programs make of a part of the command, by its name.
+const COMMANDED_ROLES: [(&str, Role); 4] = [
+    ("heading", Role::CommandedHeading),
+    ("speed", Role::CommandedSpeed),
+    ("depth", Role::CommandedDepth),
+    ("altitude", Role::CommandedAltitude),
 ];
 
 /// What is so: name, unit, standard name, and the value.
@@ -164,12 +164,8 @@ impl Sensed {
 
     fn command(&mut self, row: usize, command: Option<&Command>) {
         let Some(command) = command else { return };
-        let (depth, altitude) = match command.vertical {
-            Vertical::Depth(depth) => (Some(depth), None),
-            Vertical::Altitude(altitude) => (None, Some(altitude)),
-        };
-        let values = [Some(command.heading.degrees()), Some(command.speed), depth, altitude];
-        for (at, value) in values.into_iter().enumerate().filter_map(|(at, value)| Some((at, value?))) {
+        let values = COMMANDED.iter().map(|part| (part.value)(command)).enumerate();
+        for (at, value) in values.filter_map(|(at, value)| Some((at, value?))) {
             self.columns.number(Key::Commanded(at), row, value, || commanded(at));
         }
     }
@@ -269,9 +265,10 @@ fn plain(name: &str, meaning: &str) -> Head {
 }
 
 fn commanded(at: usize) -> Head {
-    let (name, unit, role) = COMMANDED[at];
+    let Commanded { name, unit, .. } = COMMANDED[at];
     let said = format!("the {name} that the vehicle was told");
-    Head { unit, role: Some(role), ..plain(&format!("commanded.{name}"), &said) }
+    let role = COMMANDED_ROLES.into_iter().find(|(of, _)| *of == name).map(|(_, role)| role);
+    Head { unit, role, ..plain(&format!("commanded.{name}"), &said) }
 }
 
 fn behavior() -> Head {
