@@ -76,6 +76,7 @@ fn a_run_gives_one_json_object_with_the_fixed_fields() {
             "t_s",
             "true_east_m",
             "true_north_m",
+            "true_surface_m2",
             "value"
         ]
     );

@@ -8,12 +8,14 @@ use crate::hir::{Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, True
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
+use albacore_program::OUTLINE_CORNERS;
 use albacore_wording::listed;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What stands after `truth`, beside the inputs.
-const TRUTHS: [&str; 7] = ["position", "nearest_source", "source", "start", "deepest", "depth_at", "beacon"];
+const TRUTHS: [&str; 8] =
+    ["position", "nearest_source", "source", "boundary", "start", "deepest", "depth_at", "beacon"];
 
 /// No run lasts longer, s: three years.
 const RUN_MAX_S: f64 = 1e8;
@@ -23,6 +25,8 @@ const SPEED_MAX: f64 = 1e4;
 
 /// What is said without a source.
 const NO_SOURCE: &str = "the scenario has no source";
+/// What is said without a spill.
+const NO_SPILL: &str = "the scenario has no spill whose outline makes an area";
 /// What is said without a beacon.
 const NO_BEACON: &str = "the scenario has no beacon";
 /// What is said without a deepest point.
@@ -67,6 +71,7 @@ impl<'t> Checker<'t> {
             reports: Vec::new(),
             counts: Vec::new(),
             sources: Vec::new(),
+            boundaries: Vec::new(),
             beacon: None,
             inputs: Vec::new(),
         };
@@ -109,6 +114,7 @@ impl<'t> Checker<'t> {
             ("truth", "nearest_source") => {
                 return Some(self.taken_for_granted(test.names.nearest_source, NO_SOURCE.to_string(), span));
             }
+            ("truth", "boundary") => return Some(self.true_boundary(None, NO_SPILL.to_string(), span)),
             ("truth", "start") => test.names.start,
             ("truth", "deepest") => {
                 return Some(self.taken_for_granted(test.names.deepest, NO_DEEPEST.to_string(), span));
@@ -289,6 +295,12 @@ impl<'t> Checker<'t> {
         if is_truth && member.node == "source" {
             return Some(self.true_source(args, span));
         }
+        if is_truth && member.node == "boundary" {
+            let Some([name]) = self.positional::<1>("boundary", args, span) else { return Some(self.unknown(span)) };
+            let name = self.plain_text(&name);
+            let without = format!("the scenario has no spill \"{name}\" whose outline makes an area");
+            return Some(self.true_boundary(Some(name), without, span));
+        }
         if !is_truth {
             return None;
         }
@@ -303,6 +315,20 @@ impl<'t> Checker<'t> {
             test.depths.extend(given.into_iter().map(|point| (point, id)));
         }
         Some(self.variable(id, span))
+    }
+
+    /// `truth.boundary`, `truth.boundary("oil")`: the true outline of a spill.
+    fn true_boundary(&mut self, name: Option<String>, without: String, span: Span) -> Expr {
+        let known = self.test.as_ref().and_then(|test| test.names.boundaries.iter().find(|(known, _)| *known == name));
+        let id = known.map(|(_, id)| *id).unwrap_or_else(|| {
+            self.types.corners = self.types.corners.max(OUTLINE_CORNERS);
+            let id = self.declare_hidden("truth.boundary".into(), VarKind::Signal, Type::Area.optional(), span);
+            if let Some(test) = &mut self.test {
+                test.names.boundaries.push((name, id));
+            }
+            id
+        });
+        self.taken_for_granted(id, without, span)
     }
 
     fn mission_name(&self, mission: usize) -> &str {

@@ -108,6 +108,8 @@ pub struct TestNames<T> {
     pub counts: Vec<(Counted, String, T)>,
     /// The true place of a source, by its name, if there is one.
     pub sources: Vec<(String, T)>,
+    /// The true outline of a spill, by its name, else of the nearest one, if there is one.
+    pub boundaries: Vec<(Option<String>, T)>,
     /// Where the beacon truly is, if there is one and that is asked for.
     pub beacon: Option<T>,
     /// What inputs would truly tell, where that is asked for.
@@ -254,6 +256,7 @@ impl<T: Copy> TestNames<T> {
             reports: self.reports.iter().map(report).collect(),
             counts: self.counts.iter().map(|(counted, name, x)| (*counted, name.clone(), f(*x))).collect(),
             sources: self.sources.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
+            boundaries: self.boundaries.iter().map(|(name, x)| (name.clone(), f(*x))).collect(),
             beacon: self.beacon.map(&f),
             inputs: self.inputs.iter().map(|(input, x)| (*input, f(*x))).collect(),
         }

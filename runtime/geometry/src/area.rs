@@ -306,6 +306,11 @@ impl Area {
         self.gap(p) >= 0.0
     }
 
+    /// How large it is, m2.
+    pub fn surface(&self) -> f64 {
+        0.5 * outline::surface(&self.corners).abs()
+    }
+
     /// How thin it is where it is thinnest, m: the least distance of two parallels between which it lies.
     pub fn width(&self) -> f64 {
         outline::width(&self.corners)

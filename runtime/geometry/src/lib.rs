@@ -9,6 +9,7 @@ mod geodetic;
 mod globe;
 mod grid;
 mod heading;
+mod likeness;
 pub mod math;
 mod mercator;
 mod outline;

@@ -46,6 +46,12 @@ impl Evaluation {
     pub fn set(&mut self, slot: Slot, words: &[f64]) {
         self.run.state.words[slot as usize..slot as usize + words.len()].copy_from_slice(words);
     }
+
+    /// Sets an area that may be absent, with room for so many corners.
+    pub fn set_area(&mut self, slot: Slot, room: u32, area: Option<&Area>) {
+        self.run.state.words[slot as usize] = truth(area.is_some());
+        self.run.set_area(slot + 1, room, area);
+    }
 }
 
 impl Run {

@@ -14,6 +14,7 @@ use std::sync::LazyLock;
 const STDLIB: &[(&str, &str)] = &[
     ("amp", include_str!("../../../stdlib/amp.alb")),
     ("bathymetry", include_str!("../../../stdlib/bathymetry.alb")),
+    ("boundary", include_str!("../../../stdlib/boundary.alb")),
     ("calendar", include_str!("../../../stdlib/calendar.alb")),
     ("cpt", include_str!("../../../stdlib/cpt.alb")),
     ("craft", include_str!("../../../stdlib/craft.alb")),

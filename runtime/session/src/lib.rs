@@ -1,5 +1,6 @@
 //! Load, check and step a mission: the few types that the command line, the tests and the prompt all use.
 
+mod boundary;
 mod bounded;
 pub mod campaign;
 mod check;

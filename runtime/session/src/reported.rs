@@ -1,6 +1,6 @@
 //! What a report holds, as a table of values that other programs read, and as the cells of a picture.
 
-use albacore_geometry::{Grid, Heading, Point, TangentFrame, Vector};
+use albacore_geometry::{Area, Grid, Heading, Point, TangentFrame, Vector};
 use albacore_program::{AREA_CORNER_WORDS, Display, GRID_WORDS, Program, ReportSite, Shape, calendar, number};
 use albacore_trace::Cells;
 use serde_json::{Map, Value, json};
@@ -52,8 +52,10 @@ impl Reader<'_> {
             }
             Shape::Line | Shape::Edge => json!({ "start": place(0), "end": place(2) }),
             Shape::Area(_) => {
-                let corners = corners(shape, words).into_iter().flatten().map(|corner| self.place(corner));
-                json!({ "corners": corners.collect::<Vec<_>>() })
+                let corners = corners(shape, words).unwrap_or_default();
+                let surface = Area::polygon(&corners).map(|area| area.surface()).ok();
+                let corners: Vec<Value> = corners.into_iter().map(|corner| self.place(corner)).collect();
+                json!({ "corners": corners, "surface_m2": surface })
             }
             Shape::Text => json!(number::plain(&self.program.texts, word(0))),
             Shape::Enum(variants) => json!(variants.get(word(0) as usize)),

@@ -132,12 +132,14 @@ pub struct Report {
     /// Where on the globe.
     pub longitude_deg: Option<f64>,
     /// In simulation the distance to the nearest true source; without sources, to the deepest point of the mission's area
-    /// where the bottom has pits or was surveyed.
+    /// where the bottom has pits or was surveyed. Of an area, in a world with spills, the mean distance of its outline from that of the nearest spill.
     pub error_m: Option<f64>,
     /// That source, or deepest point, in the mission's frame.
     pub true_north_m: Option<f64>,
     /// That source, or deepest point, in the mission's frame.
     pub true_east_m: Option<f64>,
+    /// How large that spill truly is, of an area.
+    pub true_surface_m2: Option<f64>,
     /// How far down-flow of it, by the mean flow of the scenario as a run begins; none without one.
     pub error_along_m: Option<f64>,
     /// How far to the right of it, looking down-flow.

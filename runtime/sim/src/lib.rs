@@ -28,6 +28,7 @@ pub use world::bottom::{Bottom, Grid, Ground, NoGo, Pit, Plane};
 pub use world::front::Front;
 pub use world::plume::{Patch, Plume, Source, Times};
 pub use world::recorded::{Playback, RecordedPlume, Still};
+pub use world::spill::{Outline, Slick, Spill};
 pub use world::stratification::Stratification;
 pub use world::survey::Survey;
 pub use world::water::{Flow, Meander, Tide, UpperFlow, Waves};

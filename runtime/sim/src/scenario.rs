@@ -71,7 +71,8 @@ impl Scenario {
 
     /// Whether there is any chemical to be sensed.
     pub fn has_plume(&self) -> bool {
-        self.environment.plume.is_some() || self.environment.recording.is_some()
+        let environment = &self.environment;
+        environment.plume.is_some() || environment.recording.is_some() || !environment.spills.is_empty()
     }
 
     /// Each of them is looked at whenever the vehicle senses.

@@ -8,6 +8,7 @@ pub(crate) mod front;
 pub(crate) mod plume;
 pub(crate) mod recorded;
 pub(crate) mod simulated;
+pub(crate) mod spill;
 pub(crate) mod stratification;
 pub(crate) mod survey;
 pub(crate) mod water;
@@ -19,6 +20,7 @@ use crate::world::front::Front;
 use crate::world::plume::{Leak, Patch, Plume, Source};
 use crate::world::recorded::{Playback, RecordedPlume};
 use crate::world::simulated::Simulated;
+use crate::world::spill::{Slick, Spill};
 use crate::world::stratification::Stratification;
 use crate::world::survey::Survey;
 use crate::world::water::{Flow, MeanFlow, Sea, Tide, Turning, UpperFlow, Waves};
@@ -49,6 +51,8 @@ pub struct Environment {
     pub sources: Vec<Source>,
     /// What was left in the water before the run.
     pub patches: Vec<Patch>,
+    /// Chemical within an outline.
+    pub spills: Vec<Spill>,
     /// A plume that was computed elsewhere, and the flow that carries it, instead of those of our own.
     pub recording: Option<RecordedPlume>,
 }
@@ -100,6 +104,7 @@ clauses! {
     "source" Source(Source) => |of, source| of.sources.push(source);
     "leak" Leak(Leak) => |of, leak| of.sources.push(leak.into());
     "patch" Patch(Patch) => |of, patch| of.patches.push(patch);
+    "spill" Spill(Spill) => |of, spill| of.spills.push(spill);
 }
 
 /// Where the flow meanders and filaments live.
@@ -111,7 +116,7 @@ pub struct Region {
 
 impl Environment {
     /// The clauses that may stand several times, and how many there are of each.
-    pub(crate) fn counts(&self) -> [(&'static str, usize); 6] {
+    pub(crate) fn counts(&self) -> [(&'static str, usize); 7] {
         let leaks = self.sources.iter().filter(|source| source.to.is_some()).count();
         [
             ("tide", self.flow.tides.len()),
@@ -120,6 +125,7 @@ impl Environment {
             ("source", self.sources.len() - leaks),
             ("leak", leaks),
             ("patch", self.patches.len()),
+            ("spill", self.spills.len()),
         ]
     }
 }
@@ -130,6 +136,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     stratification::check(scenario, objections);
     bottom::check(scenario, objections);
     beacon::check(scenario, objections);
+    spill::check(scenario, objections);
     // An area that was read from a file has not met its constructor.
     if let Some(Err(error)) = scenario.environment.region.as_ref().map(|region| Area::polygon(region.corners())) {
         let mut of = objections.of("region");
@@ -159,6 +166,7 @@ pub struct World {
     stratification: Stratification,
     bottom: Seabed,
     beacon: Option<Beacon>,
+    slicks: Vec<Slick>,
 }
 
 /// The flow and the plume that it carries.
@@ -182,7 +190,8 @@ impl World {
         let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
         let (stratification, beacon) =
             (scenario.environment.stratification.clone(), scenario.environment.beacon.clone());
-        World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon }
+        let slicks = Slick::all(&scenario.environment.spills, seed);
+        World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon, slicks }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.
@@ -242,26 +251,38 @@ impl World {
     /// The concentration, as a ratio of the chemical sensor's full scale, at a point, a height above the bottom (m) and a
     /// time within the last tick.
     pub fn concentration(&mut self, p: Point, height: f64, time: f64) -> f64 {
-        match &mut self.carrier {
+        let carried = match &mut self.carrier {
             Carrier::Simulated(own) => own.concentration(p, height, time),
             Carrier::Recorded(playback) => playback.reading(p, time),
-        }
+        };
+        carried + self.spilled(p, time)
     }
 
     /// The chemical at a time within the last tick, for looks at many places.
     pub fn survey(&self, time: f64) -> Survey {
         match &self.carrier {
-            Carrier::Simulated(own) => own.survey(time),
+            Carrier::Simulated(own) => own.survey(&self.slicks, time),
             Carrier::Recorded(playback) => Survey::recorded(playback.still(time)),
         }
     }
 
     /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
     pub fn look_up(&self, p: Point, height: f64, time: f64) -> f64 {
-        match &self.carrier {
+        let carried = match &self.carrier {
             Carrier::Simulated(own) => own.look_up(p, height, time),
             Carrier::Recorded(playback) => playback.look_up(p, time),
-        }
+        };
+        carried + self.spilled(p, time)
+    }
+
+    /// What of the concentration is of spills.
+    fn spilled(&self, p: Point, time: f64) -> f64 {
+        self.slicks.iter().map(|slick| slick.concentration(p, time)).sum()
+    }
+
+    /// Its spills.
+    pub fn slicks(&self) -> &[Slick] {
+        &self.slicks
     }
 
     /// The filaments alive at a time within the last tick: where they are and their radii, m.

@@ -1,5 +1,5 @@
 //! The columns of what reports hold: their values and what stands behind their labels, a column for each number, word and coordinate in it.
-//! Lists, areas, lines and maps stand in one cell, as JSON.
+//! Lists, areas, lines and maps stand in one cell, as JSON; of an area a column tells how large it is, and one how large what it is meant to be truly is.
 
 use super::columns::METRE_DECIMALS;
 use crate::reported;
@@ -29,9 +29,12 @@ pub(super) struct Part {
     /// The fields of records that lead to it.
     fields: Vec<String>,
     unit: Option<String>,
-    /// Which coordinate it is of a place or a vector.
+    /// Which coordinate it is of a place or a vector, or which size of an area.
     coordinate: Option<&'static str>,
 }
+
+/// How large the spill truly is that an area was reported of.
+const TRUE_SURFACE: &str = "true_surface_m2";
 
 /// Label, fields, unit and coordinate of a part.
 type Called = (String, Vec<String>, Option<String>, Option<&'static str>);
@@ -114,6 +117,10 @@ impl Part {
         };
         match shape {
             Shape::Optional(shape) => self.of(shape),
+            Shape::Area(_) => {
+                let sizes = ["surface_m2", TRUE_SURFACE].map(|name| Part { coordinate: Some(name), ..self.clone() });
+                std::iter::once(self.clone()).chain(sizes).collect()
+            }
             Shape::Point => coordinates(["north_m", "east_m"], None),
             Shape::Vector(_) => coordinates(["north", "east"], reported::unit(shape)),
             Shape::Record(_, fields) => {
@@ -147,6 +154,9 @@ impl Part {
     pub fn cell(&self, report: &Report) -> String {
         if self.sites.binary_search(&report.site).is_err() {
             return String::new();
+        }
+        if self.coordinate == Some(TRUE_SURFACE) {
+            return report.true_surface_m2.map(nine_digits).unwrap_or_default();
         }
         let value = if self.label.is_empty() { Some(&report.value) } else { report.labelled.get(&self.label) };
         let value = self.fields.iter().try_fold(value.unwrap_or(&Value::Null), |value, field| value.get(field));
@@ -214,6 +224,8 @@ mod tests {
             "visit_2_seen_at_east_m",
             "visit_2_seen_speed_m_s",
             "visit_2_outline",
+            "visit_2_outline_surface_m2",
+            "visit_2_outline_true_surface_m2",
             "visit_2_m",
             "visit_2_number_north_m",
             "visit_2_number_east_m",
@@ -225,21 +237,35 @@ mod tests {
             "number": 3,
             "share": 0.123_456_789_123,
             "seen": { "at": place, "speed": { "value": 1.5, "unit": "m/s" } },
-            "outline": { "corners": [] },
+            "outline": { "corners": [], "surface_m2": 12.5 },
         });
         let labelled = serde_json::from_value(labelled).unwrap();
         let cells = |report: &Report| columns.parts.iter().map(|part| part.cell(report)).collect::<Vec<_>>();
         let first = cells(&Report { value: place, labelled, ..Report::default() });
         assert_eq!(
             first,
-            ["1.500", "-2.000", "3", "0.123456789", "1.500", "-2.000", "1.5", "{\"corners\":[]}", "", "", ""]
+            [
+                "1.500",
+                "-2.000",
+                "3",
+                "0.123456789",
+                "1.500",
+                "-2.000",
+                "1.5",
+                "{\"corners\":[],\"surface_m2\":12.5}",
+                "12.5",
+                "",
+                "",
+                "",
+                "",
+            ]
         );
         // Other statements report under the same name, a length and a place.
         let other = cells(&Report { value: json!({ "value": 4.0, "unit": "m" }), site: 1, ..Report::default() });
-        assert_eq!(other, ["", "", "", "", "", "", "", "", "4", "", ""]);
+        assert_eq!(other, ["", "", "", "", "", "", "", "", "", "", "4", "", ""]);
         let labelled = serde_json::from_value(json!({ "number": { "north_m": 1.0, "east_m": 2.0 } })).unwrap();
         let third = cells(&Report { labelled, site: 2, ..Report::default() });
-        assert_eq!(third, ["", "", "", "", "", "", "", "", "", "1.000", "2.000"]);
+        assert_eq!(third, ["", "", "", "", "", "", "", "", "", "", "", "1.000", "2.000"]);
     }
 
     #[test]

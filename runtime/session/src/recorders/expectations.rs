@@ -3,12 +3,13 @@
 use super::Recorder;
 use super::recorded::Recorded;
 use super::results::Results;
+use crate::boundary::true_outline;
 use crate::plan::Plan;
 use albacore_geometry::Point;
 use albacore_lang::hir::{Counted, OUTCOMES, ReportPart, TrueInput, When, Which};
 use albacore_lang::{ExpectProgram, NamedValue, RowProgram, TestProgram};
 use albacore_machine::{Evaluation, Event, Outcome};
-use albacore_program::{ActivityId, Display, Shape, Text, number};
+use albacore_program::{ActivityId, Display, OUTLINE_CORNERS, Shape, Text, number};
 use albacore_sim::Scenario;
 use albacore_trace::{Step, TickRecord, areas};
 use albacore_vehicle::{Measurement, Truth, seconds};
@@ -185,6 +186,10 @@ impl<'t> Expectations<'t> {
         if let Some(slot) = slots.beacon {
             let beacon = results.plan.scenario.environment.beacon.as_ref().map(|beacon| beacon.position(time));
             evaluation.set(slot, &if_any(beacon));
+        }
+        for (name, slot) in &slots.boundaries {
+            let outline = true_outline(&results.slicks, name.as_deref(), position, time);
+            evaluation.set_area(*slot, OUTLINE_CORNERS, outline.as_ref());
         }
         for (input, slot) in &slots.inputs {
             evaluation.set(*slot, &true_words(*input, &truth, time, &results.plan.scenario));

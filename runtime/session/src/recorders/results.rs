@@ -2,12 +2,14 @@
 
 use super::Recorder;
 use super::account::Account;
+use crate::boundary::true_outline;
 use crate::plan::Plan;
 use crate::reported::{Reader, corners, fields};
 use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point, Vector};
 use albacore_machine::{Event, Outcome};
 use albacore_program::{Shape, number};
+use albacore_sim::Slick;
 use albacore_trace::{Cells, Ending, Release, Step, TickRecord};
 use albacore_vehicle::seconds;
 use std::collections::{BTreeMap, BTreeSet};
@@ -151,6 +153,8 @@ pub(crate) struct Results {
     pub areas: BTreeMap<String, Vec<Point>>,
     /// The map that was reported last.
     pub map: Option<Cells>,
+    /// The spills of its world.
+    pub slicks: Vec<Slick>,
     /// Where the vehicle was first.
     pub start: Option<Point>,
     /// Ticks so far.
@@ -173,6 +177,7 @@ impl Results {
             deepest: None,
             areas: BTreeMap::new(),
             map: None,
+            slicks: Slick::all(&plan.scenario.environment.spills, seed),
             start,
             ticks: 0,
             ending: None,
@@ -269,6 +274,12 @@ impl Results {
         nearest.or(self.deepest_sought().map(|at| (at, "the deepest point of the area")))
     }
 
+    /// How far the outline of an area that was reported is from that of the spill which it is meant to be of, m, and how large that truly is, m2.
+    fn off_the_spill(&self, found: &Area, t_s: f64) -> Option<(f64, f64)> {
+        let outline = true_outline(&self.slicks, None, found.center(), t_s)?;
+        Some((found.mean_distance(&outline), outline.surface()))
+    }
+
     /// The direction of the mean flow, as it is when the run begins; none where there is none.
     fn down_flow(&self) -> Option<Vector> {
         let mean = self.plan.scenario.environment.flow.mean;
@@ -299,6 +310,10 @@ impl Results {
         }
         let globe = place.and_then(|p| frame.map(|f| f.to_geodetic(p)));
         let sought = place.and_then(|p| self.sought(p));
+        let mut outlines = fields(site, words).filter_map(|(_, shape, words)| corners(shape, words));
+        let found =
+            outlines.next().filter(|_| !self.slicks.is_empty()).and_then(|corners| Area::polygon(&corners).ok());
+        let spill = found.and_then(|found| self.off_the_spill(&found, t_s));
         let values = fields(site, words).map(|(label, shape, words)| (label.to_string(), reader.json(shape, words)));
         let is_own_place = |label: &str, shape: &Shape| label.is_empty() && *shape == Shape::Point;
         let told = fields(site, words).filter(|(label, shape, _)| !is_own_place(label, shape));
@@ -319,13 +334,14 @@ impl Results {
             longitude_deg: globe.map(|g| g.longitude_deg()),
             true_north_m: sought.map(|(at, _)| at.north),
             true_east_m: sought.map(|(at, _)| at.east),
-            error_m: place.zip(sought).map(|(p, (sought, _))| sought.distance(p)),
+            error_m: spill.map(|(off, _)| off).or(place.zip(sought).map(|(p, (sought, _))| sought.distance(p))),
+            true_surface_m2: spill.map(|(_, surface)| surface),
             error_along_m: place.zip(sought).and_then(|(p, (at, _))| Some((p - at).dot(self.down_flow()?))),
             error_across_m: place.zip(sought).and_then(|(p, (at, _))| {
                 let down = self.down_flow()?;
                 Some((p - at).dot(Vector::new(-down.east, down.north)))
             }),
-            error_from: sought.map(|(_, what)| what),
+            error_from: spill.map(|_| "the outline of the spill").or(sought.map(|(_, what)| what)),
             told,
             value: values.remove("").unwrap_or_default(),
             labelled: values,

@@ -2,6 +2,7 @@
 
 use crate::scenario::Scenario;
 use crate::world::plume::{FilamentPlume, Index, Nearby, ahead as plume_ahead, spin_up_begin};
+use crate::world::spill::Slick;
 use crate::world::survey::Survey;
 use crate::world::water::Water;
 use albacore_geometry::{Point, Vector};
@@ -50,8 +51,9 @@ impl Simulated {
     }
 
     /// The chemical at a time within the last tick, for looks at many places.
-    pub fn survey(&self, time: f64) -> Survey {
-        Survey::simulated(self.water.frame(), self.plume.as_ref().map(|plume| Index::new(plume, time)))
+    pub fn survey(&self, slicks: &[Slick], time: f64) -> Survey {
+        let index = self.plume.as_ref().map(|plume| Index::new(plume, time));
+        Survey::simulated(self.water.frame(), index, slicks, time)
     }
 
     /// The concentration by the plainest means, that the others are held to: it searches the whole plume.
