@@ -29,6 +29,7 @@ const STDLIB: &[(&str, &str)] = &[
     ("localize", include_str!("../../../stdlib/localize.alb")),
     ("maneuver", include_str!("../../../stdlib/maneuver.alb")),
     ("maps", include_str!("../../../stdlib/maps.alb")),
+    ("outlines", include_str!("../../../stdlib/outlines.alb")),
     ("reckoning", include_str!("../../../stdlib/reckoning.alb")),
     ("safety", include_str!("../../../stdlib/safety.alb")),
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),

@@ -38,15 +38,16 @@ impl Radii {
                 })
             }
             Outline::Fourier { radius, order, amplitude } => {
-                let mut draw = 0;
-                loop {
-                    let most = amplitude * radius * 0.5f64.powi((draw / DRAWS_MAX) as i32);
-                    let drawn = Radii::fourier(radius, order, most, noise, draw);
+                let mut most = amplitude * radius;
+                let mut drawn = Radii::fourier(radius, order, most, noise, 0);
+                for draw in 1.. {
                     if drawn.0.iter().all(|r| *r >= NEAREST * radius) {
-                        return drawn;
+                        break;
                     }
-                    draw += 1;
+                    most *= if draw % DRAWS_MAX == 0 { 0.5 } else { 1.0 };
+                    drawn = Radii::fourier(radius, order, most, noise, draw);
                 }
+                drawn
             }
         }
     }
