@@ -163,7 +163,7 @@ fn every_fault_is_survived_and_named() {
         }
         rows.push(page::row(fault, &told));
     }
-    assert_eq!(all.len(), 72 + OTHERS.len());
+    assert_eq!(all.len(), sensors().count() * DISORDERS.len() + OTHERS.len());
     assert!(broken.is_empty(), "{} violations:\n{}", broken.len(), broken.join("\n"));
     if let Ok(page) = std::env::var("FAULT_PAGE") {
         page::write(Path::new(&page), &rows, seeds());

@@ -9,6 +9,7 @@ use crate::source::Span;
 use crate::syntax::tree::{self, ActivityKind, Clause, ClauseKind};
 use crate::types::Type;
 use albacore_program::Axis;
+use albacore_wording::either;
 
 /// The parts of an activity, gathered clause by clause.
 #[derive(Default)]
@@ -90,13 +91,16 @@ impl<'t> Checker<'t> {
                     }
                     _ => {
                         self.report(
-                        Diagnostic::error(
-                            Code::ChannelsUnknown,
-                            channel.span,
-                            format!("an overlay cannot {} `{}`", verb.node.trim_end_matches('s'), channel.node),
-                        )
-                        .help("an overlay `amends course`, `sets vertical` or `sets speed`; one that only looks on says nothing of it"),
-                    );
+                            Diagnostic::error(
+                                Code::ChannelsUnknown,
+                                channel.span,
+                                format!("an overlay cannot {} `{}`", verb.node.trim_end_matches('s'), channel.node),
+                            )
+                            .help(format!(
+                                "an overlay {}; one that only looks on says nothing of it",
+                                either(Axis::overlay_words())
+                            )),
+                        );
                         Kind::AmendsCourse
                     }
                 }

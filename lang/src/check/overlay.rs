@@ -8,6 +8,7 @@ use crate::hir::{self, Action, ActivityId, Body, Decl, First, Kind, StmtKind, Ta
 use crate::source::Span;
 use crate::syntax::tree::{self, Clause, ClauseKind};
 use crate::types::Type;
+use albacore_program::Axis;
 use std::collections::BTreeMap;
 
 impl<'t> Checker<'t> {
@@ -93,8 +94,10 @@ impl<'t> Checker<'t> {
             ),
             Kind::Beside => (
                 "an overlay without a channel commands nothing".to_string(),
-                "it holds `wait`, `log`, `report` and what takes no time; one that commands `sets vertical`, `sets speed` or `amends course`"
-                    .to_string(),
+                format!(
+                    "it holds `wait`, `log`, `report` and what takes no time; one that commands {}",
+                    albacore_wording::either(Axis::overlay_words())
+                ),
             ),
             _ => (
                 "an overlay that amends the course does nothing else".to_string(),

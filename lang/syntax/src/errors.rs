@@ -8,6 +8,8 @@ use crate::code::Code;
 use crate::diagnostic::Diagnostic;
 use crate::other_languages;
 use crate::source::{FileId, Span};
+use albacore_program::Channel;
+use albacore_wording::either;
 use pest::Parser;
 use pest::error::{Error, ErrorVariant, InputLocation};
 use std::collections::BTreeSet;
@@ -296,7 +298,7 @@ fn kind(rule: Rule) -> String {
         labelled => "a field, `NAME: VALUE`",
         dim_op | maybe | order | dim_factor => "",
         default => "`=`",
-        setpoint | channel => "`depth`, `altitude` or `speed`",
+        setpoint | channel => return either(Channel::ALL.map(|of| of.row().name)),
         mod_for | kw_for => "`for`",
         mod_until | kw_until => "`until`",
         mod_within | kw_within => "`within`",

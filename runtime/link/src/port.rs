@@ -7,7 +7,7 @@ use crate::error::LinkError;
 use crate::transport::Transport;
 use crate::url::{Place, Url};
 use albacore_geometry::TangentFrame;
-use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError, Vertical};
+use albacore_vehicle::{Command, Control, Measurement, Snapshot, TICK_S, Vehicle, VehicleError};
 use clocks::Clocks;
 use std::time::Duration;
 
@@ -247,8 +247,7 @@ impl Vehicle for LinkVehicle {
     }
 
     fn command(&mut self, command: &Command) -> Result<(), VehicleError> {
-        let (Vertical::Depth(height) | Vertical::Altitude(height)) = command.vertical;
-        if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
+        if !command.is_finite() {
             return Err(VehicleError("a command that is no finite number was not sent to the vehicle".into()));
         }
         let now = (self.clock)();

@@ -24,6 +24,12 @@ impl Axis {
         }
     }
 
+    /// What an overlay may say that it commands.
+    pub fn overlay_words() -> impl Iterator<Item = String> {
+        let sets = Axis::ALL.into_iter().map(|axis| format!("sets {}", axis.name()));
+        std::iter::once("amends course".to_string()).chain(sets)
+    }
+
     /// What messages call it.
     pub const fn title(self) -> &'static str {
         match self {

@@ -320,8 +320,7 @@ impl Vehicle for Simulator {
         if self.control != Control::InControl {
             return Err(VehicleError(String::from("the vehicle was given a command before control of it was taken")));
         }
-        let (Vertical::Depth(height) | Vertical::Altitude(height)) = command.vertical;
-        if !(command.heading.radians().is_finite() && command.speed.is_finite() && height.is_finite()) {
+        if !command.is_finite() {
             return Err(VehicleError(String::from("the vehicle was given a command that is not a finite number")));
         }
         if !self.faults.ailing().deaf {

@@ -29,6 +29,11 @@ impl Command {
         Command { heading, speed, vertical }
     }
 
+    /// Whether all that it holds are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        COMMANDED.iter().all(|part| (part.value)(self).is_none_or(f64::is_finite))
+    }
+
     /// To lie still at a depth.
     pub const fn still(heading: Heading, depth: f64) -> Self {
         Command::new(heading, 0.0, Vertical::Depth(depth))

@@ -2,7 +2,7 @@
 
 mod suggest;
 
-pub use suggest::{help, listed, nearest};
+pub use suggest::{either, help, listed, nearest};
 
 /// A distance, m, in words. Beyond 1000 km no local plane gives it.
 pub fn distance(metres: f64) -> String {

@@ -80,6 +80,15 @@ pub fn help<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Op
 /// So many names a message lists.
 const LISTED_MAX: usize = 12;
 
+/// Words of which one is written: `` `depth`, `altitude` or `speed` ``.
+pub fn either(words: impl IntoIterator<Item = impl AsRef<str>>) -> String {
+    let quoted: Vec<String> = words.into_iter().map(|word| format!("`{}`", word.as_ref())).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
 /// `a`, `b` and `c`; of many the first, and how many more there are.
 pub fn listed(names: &[impl AsRef<str>]) -> String {
     let quoted: Vec<String> = names.iter().take(LISTED_MAX).map(|n| format!("`{}`", n.as_ref())).collect();
