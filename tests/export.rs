@@ -258,6 +258,56 @@ fn a_log_for_moos_is_in_the_order_of_time() {
     assert_eq!(lines.iter().filter(|line| line[1] == "REPORT").count(), 1);
 }
 
+/// An area that was reported is a polygon with what was reported beside it, and not to be taken for what is so.
+#[test]
+fn reported_areas_and_true_outlines_are_polygons() {
+    let (folder, result) = run("areas", "../tests/report/spills.alb");
+    exported(&folder, &format!("export run {ALL}"));
+    let map: Value = serde_json::from_str(&read(&folder, "track.geojson")).unwrap();
+    let polygons = map["features"].as_array().unwrap().iter().filter(|one| one["geometry"]["type"] == "Polygon");
+    let polygons: Vec<&Value> = polygons.collect();
+    let of = |name: &'static str| move |one: &&&Value| one["properties"]["name"] == name;
+    let told: Vec<String> = polygons
+        .iter()
+        .map(|one| format!("{} {}", one["properties"]["kind"], one["properties"]["name"]).replace('"', ""))
+        .collect();
+    let truth = ["oil", "dye", "slick"].map(|name| format!("true outline true outline of {name}"));
+    let reported = ["dye", "guess.outline"].map(|name| format!("reported area {name}"));
+    assert_eq!(told, [&["area op".to_string()][..], &truth, &reported].concat());
+    let dye = polygons.iter().find(of("dye")).unwrap();
+    let (ring, report) = (dye["geometry"]["coordinates"][0].as_array().unwrap(), &result["reports"][0]);
+    let corners = report["value"]["corners"].as_array().unwrap();
+    assert!(ring.len() == corners.len() + 1 && ring[0] == ring[corners.len()]);
+    for corner in corners {
+        let near = |at: &Value, degrees: &Value| (at.as_f64().unwrap() - degrees.as_f64().unwrap()).abs() < 1e-7;
+        let is_here = |at: &&Value| near(&at[0], &corner["longitude_deg"]) && near(&at[1], &corner["latitude_deg"]);
+        assert!(ring.iter().any(|at| is_here(&at)), "{corner}");
+    }
+    let properties = &dye["properties"];
+    assert_eq!((&properties["reported"], &properties["time_s"]), (&"dye".into(), &report["t_s"]));
+    assert_eq!(
+        (&properties["report"]["depth"], &properties["report"]["error_m"]),
+        (&report["labelled"]["depth"], &report["error_m"])
+    );
+    let kml = read(&folder, "track.kml");
+    let kml = roxmltree::Document::parse(&kml).unwrap();
+    let count = |name: &str| kml.descendants().filter(|node| node.tag_name().name() == name).count();
+    assert_eq!((count("Polygon"), count("Point")), (6, 0));
+    let told = kml.descendants().filter(|node| node.tag_name().name() == "description");
+    assert_eq!(told.filter(|node| node.text().is_some_and(|text| text.contains("depth = 3.0 m"))).count(), 2);
+    assert_eq!(read(&folder, "track.gpx").matches("<rte>").count(), 3, "what is so is no way to go");
+    let bytes = bytes(&folder, "track.nc");
+    let file = NetCdf::read(&bytes);
+    assert_eq!(
+        (file.texts("area_name"), file.numbers("area_report")),
+        (vec!["dye".into(), "guess.outline".into()], vec![0.0; 2])
+    );
+    assert_eq!((file.numbers("area_corners"), file.dimension("corner")), (vec![4.0; 2], 8));
+    near(file.numbers("corner_lat")[0], corners[0]["latitude_deg"].as_f64().unwrap());
+    let last = Table::read(&read(&folder, "track.csv"));
+    assert!(last.cell(last.rows.len() - 1, "reported").starts_with("dye: area of 4 corners, depth = 3.0 m"));
+}
+
 #[test]
 fn maps_hold_track_area_and_reports() {
     let (folder, result) = run("maps", "duck_single.alb");

@@ -49,8 +49,13 @@ fn albacore(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) 
 
 /// A run of one of the repository's missions, in a folder `run` of a test's own: that folder's parent, and its result.
 fn run_of(name: &str, mission: &str) -> (PathBuf, Value) {
+    run_script(name, &Path::new("missions").join(mission))
+}
+
+/// The same of any of the repository's scripts.
+fn run_script(name: &str, script: &Path) -> (PathBuf, Value) {
     let folder = folder(name);
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("missions").join(mission);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
     let (code, printed, said) = albacore(&folder, &["run", script.to_str().unwrap(), "--json", "--out", "run"]);
     assert_eq!(code, Some(0), "{said}");
     (folder, serde_json::from_str(&printed).unwrap())
@@ -148,6 +153,61 @@ fn a_page_says_what_the_journal_says() {
     }
     assert!(data["diagrams"][0]["svg"].as_str().unwrap().contains("data-behavior=\"0\""));
     assert!(data["plume"]["frames"].as_array().unwrap().len() > 100);
+}
+
+/// Numbers that are told as differences, each so many times as large.
+fn unpacked(list: &Value, scale: f64) -> Vec<f64> {
+    let steps = list.as_array().unwrap().iter().map(|step| step.as_f64().unwrap());
+    let sums = steps.scan(0.0, |sum, step| {
+        *sum += step;
+        Some(*sum / scale)
+    });
+    sums.collect()
+}
+
+/// A page has each corner where the run began and how fast it moves; the picture has the outline as it was in the end.
+#[test]
+fn true_outlines_are_shown_as_they_move_beside_the_areas_that_were_reported() {
+    let (folder, result) = run_script("spills", Path::new("tests/report/spills.alb"));
+    let page = page_of(&folder);
+    let data = data_of(&page);
+    let world = &data["world"];
+    let names = |list: &Value| -> Vec<String> {
+        list.as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap().to_string()).collect()
+    };
+    assert_eq!(names(&world["true_outlines"]), ["oil", "dye", "slick"]);
+    assert_eq!(names(&world["outlines"]), ["dye", "guess.outline"]);
+    let of = |spill: usize, what: &str, scale: f64| {
+        [0, 1].map(|axis| unpacked(&world["true_outlines"][spill][what][axis], scale))
+    };
+    let ([north, east], [oil_north, oil_east]) = (of(1, "at", 10.0), of(0, "at", 10.0));
+    assert_eq!((north.len(), north[0], east[0]), (360, -30.0, -40.0), "an ellipse of 60 m, its centre 60 m south");
+    assert_eq!(of(1, "moves", 1e6), [vec![0.0; 360], vec![0.0; 360]]);
+    // Sheared along 30 degrees: what lies across moves with it, and all of it drifts east.
+    let [moves_north, moves_east] = of(0, "moves", 1e6);
+    let (cos, sin) = (0.75f64.sqrt(), 0.5);
+    for i in 0..360 {
+        let across = 0.01 * (oil_east[i] * cos - (oil_north[i] - 20.0) * sin);
+        assert!((moves_north[i] - across * cos).abs() < 2e-3, "{i}");
+        assert!((moves_east[i] - 0.5 - across * sin).abs() < 2e-3, "{i}");
+    }
+    assert_eq!(
+        (&world["true_outlines"][0]["half_life_s"], &world["true_outlines"][1]["half_life_s"]),
+        (&60.0.into(), &Value::Null)
+    );
+    // It begins within the area and ends beyond it; of what is far away nothing is on the map.
+    let east = world["extent"]["east"].as_f64().unwrap();
+    assert!(east > 105.0 && east < 150.0, "{east}");
+    assert!(data["plume"].is_null(), "nothing has filaments");
+    assert!(result["reports"][0]["true_surface_m2"].is_number());
+    let picture = std::fs::read_to_string(folder.join("run").join("run.svg")).unwrap();
+    for text in ["true outline", "true outline at the start", "oil, 50 % left", "dye", "reported area", "guess.outline"]
+    {
+        assert!(picture.contains(&format!(">{text}</text>")), "no {text}");
+    }
+    assert!(!picture.contains(">slick<") && page.contains("guess.outline"));
+    let plain = page.split_once("<noscript>").unwrap().1;
+    assert!(plain.contains("oil, 50 % left"), "the picture of who has no scripts");
 }
 
 #[test]

@@ -170,6 +170,18 @@ fn a_leak_is_drawn_as_the_line_that_it_is() {
     assert!(picture.contains(">leak</text>") && picture.matches(">pipe</text>").count() == 1);
 }
 
+/// Each of them with its name and whole, however far away it is.
+#[test]
+fn spills_are_drawn_as_they_are_when_a_run_begins() {
+    let picture = drawn("spills", "tests/report/spills.alb#oil_and_dye");
+    for word in [">oil<", ">dye<", ">slick<", ">true outline<", ">2 km<"] {
+        assert!(picture.contains(word), "no {word}");
+    }
+    assert!(!picture.contains("at the start") && !picture.contains("% left"));
+    let listing = listed(&["tests/report/spills.alb#oil_and_dye", "--no-out"]);
+    assert!(listing.matches("\nspill\n").count() == 3 && !listing.contains("filaments when"), "{listing}");
+}
+
 /// A folder that is named must be there, as for the table of a campaign.
 #[test]
 fn a_picture_for_no_folder_is_refused() {

@@ -45,7 +45,7 @@ addEventListener("error", (event) => {
   // A number of a series stands for so long, s, until the next: for some seconds, and of an instrument that is slow longer.
   const OLD_S = 5;
 
-  let [frames, frameEvery, ready] = [[], 1, new Map()];
+  let [frames, frameEvery, ready, outlines] = [[], 1, new Map(), []];
   // What is told with its reason when nothing is chosen: the last of these.
   const TOLD = new Set(["switch", "resume", "abort", "timeout", "stale", "hold"]);
 
@@ -122,6 +122,9 @@ addEventListener("error", (event) => {
       const { bottom } = raw.world;
       report.world = raw.world;
       report.bottom = bottom === null ? null : { cells: bottom.cells, depths: unpacked(bottom.depths, 10) };
+      outlines = raw.world.true_outlines.map((one) => ({
+        name: one.name, halfLife: one.half_life_s, at: one.at.map((list) => unpacked(list, 10)), moves: one.moves.map((list) => unpacked(list, 1e6)),
+      }));
     }
     for (const loader of loaders) loader();
   };
@@ -182,6 +185,15 @@ addEventListener("error", (event) => {
       ready.set(at, { north: unpacked(north, 1), east: unpacked(east, 1), radius: unpacked(radius, 10) });
     }
     return ready.get(at);
+  };
+
+  // The true outlines at a moment: north and east of their corners by turns, and what share of the chemical is left.
+  report.trueOutlines = function (t) {
+    return outlines.map(({ name, halfLife, at: [north, east], moves }) => {
+      const left = halfLife === null ? 1 : 2 ** (-t / halfLife);
+      const at = Array.from(north).flatMap((x, i) => [x + t * moves[0][i], east[i] + t * moves[1][i]]);
+      return { name: halfLife === null ? name : `${name}, ${Math.round(100 * left)} % left`, left, at };
+    });
   };
 
   // Latitude and longitude of a place: a parabola each way through nine known points, which is right to centimetres.

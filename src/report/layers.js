@@ -1,4 +1,4 @@
-// What is drawn on the map, from below: bottom, grid, plume, areas and track; what lies on them is in the next part.
+// What is drawn on the map, from below: bottom, grid, plume, true outlines, areas and track; what lies on them is in the next part.
 {
   const { map } = report;
   const { pen, view } = map;
@@ -50,7 +50,7 @@
     return report.scaleColour(Math.round(share * STEPS) / STEPS);
   };
 
-  map.shown = { plume: true, bottom: true, truth: true, detections: true, reports: true, grid: true };
+  map.shown = { plume: true, "true outline": true, bottom: true, truth: true, detections: true, reports: true, grid: true };
 
   report.depthAt = function (north, east) {
     const { bottom, world } = report;
@@ -167,16 +167,42 @@
     }
   }
 
+  map.outlineColour = { reported: "#7b1fa2", get true() { return report.isDark() ? "#ebc85a" : "#8a6d1f"; } };
+
+  // What fades is fainter, but for its name.
+  function drawTrueOutlines(t) {
+    const colour = map.outlineColour.true;
+    for (const one of report.trueOutlines(t)) {
+      pen.globalAlpha = Math.max(one.left, 0.3);
+      outline(one, colour, [], 1.5, report.isDark() ? "rgba(235,200,90,0.12)" : "rgba(176,141,47,0.14)");
+      pen.globalAlpha = 1;
+      nameAtBottom(one, colour);
+    }
+  }
+
+  // The name of what is true stands at its southernmost corner, clear of the name of what was reported of it; what is off the map has none.
+  function nameAtBottom(named, colour) {
+    const onMap = pixels(named.at).filter(([x, y]) => x > 0 && y > 0 && x < view.width && y < view.height);
+    if (onMap.length === 0) return;
+    const [x, y] = onMap.reduce((a, b) => (b[1] > a[1] ? b : a));
+    label(named.name, Math.min(Math.max(x, 4), view.width - 60), Math.min(y + 9, view.height - 9), colour);
+  }
+
+  // Other names stand at the northernmost corner, inside the map.
+  function nameAtTop(named, colour) {
+    const top = pixels(named.at).reduce((a, b) => (b[1] < a[1] ? b : a), [0, Infinity]);
+    label(named.name, Math.min(Math.max(top[0], 4), view.width - 60), Math.max(top[1] - 9, 9), colour);
+  }
+
   function drawAreas() {
     const { areas, outlines, no_go } = report.world;
     areas.forEach((area, i) => outline(area, report.ink(i === 0 ? "ink" : "soft"), i === 0 ? [7, 4] : [3, 3], i === 0 ? 1.6 : 1.1));
     for (const zone of no_go) outline(zone, "#c62828", [], 1.4, "rgba(198,40,40,0.13)");
-    for (const area of outlines) outline(area, "#7b1fa2", [2, 2], 1.6);
-    // Names stand at the northernmost corner, inside the map.
-    for (const [named, colour] of [...areas.slice(1).map((a) => [a, report.ink("soft")]), ...no_go.map((a) => [a, "#c62828"]), ...outlines.map((a) => [a, "#7b1fa2"])]) {
-      const top = pixels(named.at).reduce((a, b) => (b[1] < a[1] ? b : a), [0, Infinity]);
-      label(named.name, Math.min(Math.max(top[0], 4), view.width - 60), Math.max(top[1] - 9, 9), colour);
-    }
+    const reported = map.shown.reports ? outlines : [];
+    for (const area of reported) outline(area, map.outlineColour.reported, [2, 2], 1.6);
+    for (const area of areas.slice(1)) nameAtTop(area, report.ink("soft"));
+    for (const zone of no_go) nameAtTop(zone, "#c62828");
+    for (const area of reported) nameAtTop(area, map.outlineColour.reported);
   }
 
   // A filament is a Gaussian: a soft disc, drawn once and stretched.
@@ -268,6 +294,7 @@
     if (map.shown.bottom && report.bottom !== null) drawBottom();
     if (map.shown.grid) drawGrid();
     if (map.shown.plume) drawPlume(t);
+    if (map.shown["true outline"]) drawTrueOutlines(t);
     drawAreas();
     drawTrack(t);
     map.marks(t);

@@ -196,16 +196,24 @@
       entry.append(`${map.colour.replaceAll("_", " ")} ${least}`, bar, most);
       room.append(entry);
     }
-    const marks = [["moment", "◎", "report"], ["warn", "★", report.world.sources.length > 0 ? "true source" : "truly deepest"], ["ink", "□", "start"], ["ink", "×", "detection"], ["soft", "┄", "true track"]];
-    const isThere = [report.reports.some((one) => one.north !== null), report.world.sources.length > 0 || report.world.deepest !== null, report.world.start !== null, report.detection !== null && report.series.has("chemical") && map.colour !== "chemical", report.series.has("true_north")];
-    marks.forEach(([colour, sign, text], i) => {
-      if (!isThere[i]) return;
+    const { sources, deepest, start, outlines, true_outlines } = report.world;
+    const marks = [
+      ["var(--moment)", "◎", "report", report.reports.some((one) => one.north !== null)],
+      [map.outlineColour.reported, "⬠", "reported area", outlines.length > 0],
+      [map.outlineColour.true, "⬠", "true outline", true_outlines.length > 0],
+      ["#d32f2f", "★", sources.length > 0 ? "true source" : "truly deepest", sources.length > 0 || deepest !== null],
+      ["var(--ink)", "□", "start", start !== null],
+      ["var(--ink)", "×", "detection", report.detection !== null && report.series.has("chemical") && map.colour !== "chemical"],
+      ["var(--soft)", "┄", "true track", report.series.has("true_north")],
+    ];
+    for (const [colour, sign, text, isThere] of marks) {
+      if (!isThere) continue;
       const entry = element("span", "");
       const mark = element("b", "", sign);
-      mark.style.color = i === 1 ? "#d32f2f" : `var(--${colour})`;
+      mark.style.color = colour;
       entry.append(mark, text);
       room.append(entry);
-    });
+    }
     if (report.bottom !== null) room.append(element("span", "", `bottom ${map.bottomRange.map((x) => x.toFixed(1)).join(" to ")} m: bluer is deeper`));
   }
   report.drawLegend = legend;
@@ -217,7 +225,8 @@
   function offer() {
     const { map } = report;
     const colours = ["behavior", ...Array.from(report.series.keys()).filter((one) => !NO_COLOURS.has(one))];
-    const isThere = { plume: report.hasPlume, bottom: report.bottom !== null, truth: report.series.has("true_north"), detections: report.detection !== null && report.series.has("chemical"), reports: report.reports.some((one) => one.north !== null), grid: true };
+    const { outlines, true_outlines } = report.world;
+    const isThere = { plume: report.hasPlume, "true outline": true_outlines.length > 0, bottom: report.bottom !== null, truth: report.series.has("true_north"), detections: report.detection !== null && report.series.has("chemical"), reports: outlines.length > 0 || report.reports.some((one) => one.north !== null), grid: true };
     const layers = Object.keys(map.shown).filter((name) => isThere[name]);
     const verbs = new Set(report.happenings.map((one) => kindOf(one.verb)));
     const kinds = KINDS.map((_, kind) => kind).filter((kind) => verbs.has(kind));

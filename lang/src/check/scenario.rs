@@ -126,12 +126,12 @@ impl<'t> Checker<'t> {
         clauses
     }
 
-    /// A clause whose first parameter is a name may stand several times: each is another thing. So may one of what happens
+    /// A clause that has a name may stand several times: each is another thing. So may one of what happens
     /// from a time to another. All others stand once.
     pub(super) fn clauses_once(&mut self, clauses: &[ClauseUse]) {
         for (i, clause) in clauses.iter().enumerate() {
             let first = clauses[..i].iter().find(|c| c.name == clause.name);
-            let has_name = clause.args.first().is_some_and(|(param, _)| param == "name");
+            let has_name = clause.args.iter().any(|(param, _)| param == "name");
             if let Some(first) = first.filter(|_| !has_name && !happens(clause)) {
                 let message = format!("a scenario has one `{}`", clause.name);
                 let finding = Diagnostic::error(Code::ScenariosTwice, clause.span, message);

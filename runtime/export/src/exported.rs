@@ -28,6 +28,8 @@ pub struct Exported {
     pub truth: Option<Track>,
     /// The mission's area, then its regions.
     pub outlines: Vec<Outline>,
+    /// What in simulation chemical truly lies within, when the run ended.
+    pub true_outlines: Vec<Outline>,
     /// What was reported, in the order of time.
     pub reports: Vec<Reported>,
     /// The lines of the trace, in the order of time.
@@ -197,6 +199,18 @@ pub struct Outline {
     pub corners: Vec<Place>,
 }
 
+impl Outline {
+    /// The corners that can be put on a map, and the first once more; none of what is no area there.
+    pub(crate) fn ring(&self) -> Option<Vec<&Place>> {
+        let mut ring: Vec<&Place> = self.corners.iter().filter(|corner| corner.is_on_globe()).collect();
+        if ring.len() < 3 {
+            return None;
+        }
+        ring.push(ring[0]);
+        Some(ring)
+    }
+}
+
 /// What was reported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reported {
@@ -208,6 +222,8 @@ pub struct Reported {
     pub told: String,
     /// Where, if a place was reported.
     pub place: Option<Place>,
+    /// The areas in it.
+    pub areas: Vec<Outline>,
     /// What, for a program: an object.
     pub value: Value,
 }
@@ -262,6 +278,11 @@ impl Exported {
         let rows = self.ticks.iter().copied().zip(&track.0).enumerate();
         let is_due = move |row: usize, tick: u64| row == last || tick.is_multiple_of(POINT_EVERY_TICKS);
         rows.filter(move |(row, (tick, place))| is_due(*row, *tick) && place.is_on_globe()).map(|(_, point)| point)
+    }
+
+    /// When the run ended: its last tick.
+    pub(crate) fn end(&self) -> u64 {
+        self.ticks.last().copied().unwrap_or_default()
     }
 
     /// The tracks with their names.

@@ -1,15 +1,20 @@
-//! GeoJSON (RFC 7946): track, areas and reports as features. A third coordinate is the height above the surface, which is negative
+//! GeoJSON (RFC 7946): track, areas and reports as features, the areas of a report as features of their own. A third coordinate is the height above the surface, which is negative
 //! below it.
 
 use crate::exported::{Exported, Outline, Place, Reported, Track};
 use crate::text::{self, Members};
+use serde_json::Value;
 
 /// The file.
 pub fn make(run: &Exported) -> Vec<u8> {
     let tracks = run.tracks().filter_map(|(name, track)| way(run, name, track));
     let outlines = run.outlines.iter().enumerate().filter_map(|(at, outline)| area(at, outline));
-    let reports = run.reports.iter().filter_map(|report| point(run, report));
-    let features: Vec<String> = tracks.chain(outlines).chain(reports).collect();
+    let truth = run.true_outlines.iter().filter_map(|outline| true_outline(run, outline));
+    let reports = run.reports.iter().flat_map(|report| {
+        let areas = report.areas.iter().filter_map(|outline| reported_area(run, report, outline));
+        point(run, report).into_iter().chain(areas)
+    });
+    let features: Vec<String> = tracks.chain(outlines).chain(truth).chain(reports).collect();
     format!("{{\"type\":\"FeatureCollection\",\"features\":[\n{}\n]}}\n", features.join(",\n")).into_bytes()
 }
 
@@ -32,20 +37,55 @@ fn way(run: &Exported, name: &str, track: &Track) -> Option<String> {
 }
 
 fn area(at: usize, outline: &Outline) -> Option<String> {
-    let mut corners: Vec<&Place> = outline.corners.iter().filter(|corner| corner.is_on_globe()).collect();
-    if corners.len() < 3 {
-        return None;
-    }
-    if is_clockwise(&corners) {
-        corners.reverse();
-    }
-    corners.push(corners[0]);
-    let ring: Vec<String> = corners.into_iter().map(position).collect();
     let mut properties = Members::default();
     properties.text("kind", if at == 0 { "area" } else { "region" });
     properties.text("name", &outline.name);
-    let geometry = format!("{{\"type\":\"Polygon\",\"coordinates\":[[{}]]}}", ring.join(","));
-    Some(feature(&geometry, &properties))
+    Some(feature(&polygon(outline)?, &properties))
+}
+
+/// What nobody has measured says so in its kind and its name.
+fn true_outline(run: &Exported, outline: &Outline) -> Option<String> {
+    let mut properties = Members::default();
+    properties.text("kind", "true outline");
+    properties.text("name", &format!("true outline of {}", outline.name));
+    when(run, run.end(), &mut properties);
+    Some(feature(&polygon(outline)?, &properties))
+}
+
+fn reported_area(run: &Exported, report: &Reported, outline: &Outline) -> Option<String> {
+    let mut properties = Members::default();
+    properties.text("kind", "reported area");
+    properties.text("name", &outline.name);
+    properties.text("reported", &report.name);
+    when(run, report.tick, &mut properties);
+    properties.text("told", &report.told);
+    properties.raw("report", &without_corners(&report.value).to_string());
+    Some(feature(&polygon(outline)?, &properties))
+}
+
+fn polygon(outline: &Outline) -> Option<String> {
+    let mut ring = outline.ring()?;
+    if is_clockwise(&ring) {
+        ring.reverse();
+    }
+    let ring: Vec<String> = ring.into_iter().map(position).collect();
+    Some(format!("{{\"type\":\"Polygon\",\"coordinates\":[[{}]]}}", ring.join(",")))
+}
+
+/// Without what the geometry tells.
+fn without_corners(value: &Value) -> Value {
+    match value {
+        Value::Object(members) => {
+            let others = members.iter().filter(|(name, of)| *name != "corners" || !of.is_array());
+            Value::Object(others.map(|(name, of)| (name.clone(), without_corners(of))).collect())
+        }
+        other => other.clone(),
+    }
+}
+
+fn when(run: &Exported, tick: u64, properties: &mut Members) {
+    properties.raw("time_s", &text::seconds(tick));
+    properties.text("time", &text::moment(run.about.moment_ms(tick)));
 }
 
 fn point(run: &Exported, report: &Reported) -> Option<String> {
@@ -53,8 +93,7 @@ fn point(run: &Exported, report: &Reported) -> Option<String> {
     let mut properties = Members::default();
     properties.text("kind", "report");
     properties.text("name", &report.name);
-    properties.raw("time_s", &text::seconds(report.tick));
-    properties.text("time", &text::moment(run.about.moment_ms(report.tick)));
+    when(run, report.tick, &mut properties);
     properties.number("north_m", place.north);
     properties.number("east_m", place.east);
     properties.text("told", &report.told);

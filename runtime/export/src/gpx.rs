@@ -1,4 +1,4 @@
-//! GPX 1.1: reports as waypoints, areas as closed routes, tracks with times. Its `ele` is the height above the surface.
+//! GPX 1.1: reports as waypoints, areas as closed routes, also those that were reported, tracks with times. Its `ele` is the height above the surface.
 
 use crate::csv::told;
 use crate::exported::{Exported, Place};
@@ -33,10 +33,10 @@ pub fn make(run: &Exported) -> Vec<u8> {
             xml(&told(report))
         );
     }
-    for outline in &run.outlines {
+    for outline in run.outlines.iter().chain(run.reports.iter().flat_map(|report| &report.areas)) {
+        let Some(ring) = outline.ring() else { continue };
         let _ = writeln!(out, "<rte><name>{}</name>", xml(&outline.name));
-        let corners = outline.corners.iter().chain(outline.corners.first()).filter(|corner| corner.is_on_globe());
-        for corner in corners {
+        for corner in ring {
             let _ = writeln!(out, "<rtept {}/>", at(corner));
         }
         out.push_str("</rte>\n");

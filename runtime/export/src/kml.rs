@@ -1,7 +1,7 @@
-//! KML 2.2: the track in time (`gx:Track`), areas as polygons, reports as placemarks.
+//! KML 2.2: the track in time (`gx:Track`), areas as polygons, also those that were reported, reports of places as points.
 
 use crate::csv::told;
-use crate::exported::{Exported, Place};
+use crate::exported::{Exported, Outline, Place};
 use crate::text::{self, xml};
 use std::fmt::Write;
 
@@ -10,6 +10,8 @@ const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
 /// A line of the style, orange for what is believed and green for what is so; KML writes alpha, blue, green, red.
 const STYLES: &str = "<Style id=\"track\"><LineStyle><color>ff0080ff</color><width>2</width></LineStyle></Style>\n\
     <Style id=\"true_track\"><LineStyle><color>ff40a000</color><width>1</width></LineStyle></Style>\n\
+    <Style id=\"true_outline\"><LineStyle><color>ff40a000</color></LineStyle><PolyStyle><fill>0</fill></PolyStyle></Style>\n\
+    <Style id=\"reported_area\"><LineStyle><color>ff0080ff</color></LineStyle><PolyStyle><color>300080ff</color></PolyStyle></Style>\n\
     <Style id=\"area\"><LineStyle><color>ffffffff</color></LineStyle><PolyStyle><fill>0</fill></PolyStyle></Style>\n";
 
 /// The file.
@@ -25,25 +27,26 @@ pub fn make(run: &Exported) -> Vec<u8> {
     );
     out.push_str(STYLES);
     for outline in &run.outlines {
-        let corners = outline.corners.iter().chain(outline.corners.first()).filter(|corner| corner.is_on_globe());
-        let ring: Vec<String> = corners.map(|corner| position(corner, ",")).collect();
-        let _ = writeln!(
-            out,
-            "<Placemark><name>{}</name><styleUrl>#area</styleUrl><Polygon><outerBoundaryIs><LinearRing><coordinates>{}\
-             </coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>",
-            xml(&outline.name),
-            ring.join(" ")
-        );
+        polygon(&mut out, outline, &outline.name, "", "area");
+    }
+    for outline in &run.true_outlines {
+        // What nobody has measured says so in its name.
+        let name = format!("true outline of {}", outline.name);
+        polygon(&mut out, outline, &name, &stamp(run, run.end()), "true_outline");
     }
     for report in &run.reports {
+        for outline in &report.areas {
+            let about = format!("<description>{}</description>{}", xml(&told(report)), stamp(run, report.tick));
+            polygon(&mut out, outline, &outline.name, &about, "reported_area");
+        }
         let Some(place) = report.place.filter(Place::is_on_globe) else { continue };
         let _ = writeln!(
             out,
-            "<Placemark><name>{}</name><description>{}</description><TimeStamp><when>{}</when></TimeStamp><Point>\
+            "<Placemark><name>{}</name><description>{}</description>{}<Point>\
              <coordinates>{}</coordinates></Point></Placemark>",
             xml(&report.name),
             xml(&told(report)),
-            text::moment(run.about.moment_ms(report.tick)),
+            stamp(run, report.tick),
             position(&place, ",")
         );
     }
@@ -63,6 +66,24 @@ pub fn make(run: &Exported) -> Vec<u8> {
     }
     out.push_str("</Document>\n</kml>\n");
     out.into_bytes()
+}
+
+fn stamp(run: &Exported, tick: u64) -> String {
+    format!("<TimeStamp><when>{}</when></TimeStamp>", text::moment(run.about.moment_ms(tick)))
+}
+
+/// An area; what is said about it is written already.
+fn polygon(out: &mut String, outline: &Outline, name: &str, about: &str, style: &str) {
+    let Some(ring) = outline.ring() else { return };
+    let ring: Vec<String> = ring.into_iter().map(|corner| position(corner, ",")).collect();
+    // Memory takes everything.
+    let _ = writeln!(
+        out,
+        "<Placemark><name>{}</name>{about}<styleUrl>#{style}</styleUrl><Polygon><outerBoundaryIs><LinearRing><coordinates>{}\
+         </coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>",
+        xml(name),
+        ring.join(" ")
+    );
 }
 
 /// Longitude, latitude and height above the surface; a depth that nobody knows is none.

@@ -1,5 +1,5 @@
 //! NetCDF classic, a trajectory by the CF conventions, 1.8: one dimension for the ticks, coordinates that are held from one sample to the
-//! next, and the columns as they came. What was reported has a dimension of its own.
+//! next, and the columns as they came. What was reported has a dimension of its own, and so have the areas in it and their corners.
 
 mod classic;
 
@@ -15,7 +15,7 @@ const TEXT_BYTES_MAX: usize = 1024;
 /// Seconds since then, where a moment is no tick.
 const UNIX: &str = "seconds since 1970-01-01T00:00:00Z";
 /// Names that no column can have.
-const TAKEN: [&str; 12] = [
+const TAKEN: [&str; 19] = [
     "time",
     "lat",
     "lon",
@@ -28,6 +28,13 @@ const TAKEN: [&str; 12] = [
     "report_text",
     "report_lat",
     "report_lon",
+    "area_name",
+    "area_report",
+    "area_corners",
+    "corner_lat",
+    "corner_lon",
+    "corner_y",
+    "corner_x",
 ];
 
 /// The file.
@@ -41,6 +48,7 @@ pub fn make(run: &Exported) -> Vec<u8> {
     }
     if !run.reports.is_empty() {
         reports(&mut file, run);
+        reported_areas(&mut file, run);
     }
     file.bytes()
 }
@@ -182,6 +190,49 @@ fn reports<'a>(file: &mut File<'a>, run: &'a Exported) {
         };
         place("report_lat", |place| place.latitude, "latitude", "degrees_north");
         place("report_lon", |place| place.longitude, "longitude", "degrees_east");
+    }
+}
+
+/// The corners of all areas that were reported, one area after the other.
+fn reported_areas<'a>(file: &mut File<'a>, run: &'a Exported) {
+    let numbered = run.reports.iter().zip(0u32..);
+    let areas = numbered.flat_map(|(report, number)| report.areas.iter().map(move |area| (number, area)));
+    let areas: Vec<_> = areas.filter(|(_, area)| !area.corners.is_empty()).collect();
+    if areas.is_empty() {
+        return;
+    }
+    let area = file.dimension("area", areas.len());
+    let names: Vec<&str> = areas.iter().map(|(_, area)| cut(&area.name)).collect();
+    let width = names.iter().map(|name| name.len()).max().unwrap_or(0).max(1);
+    let length = file.dimension("area_name_length", width);
+    let mut name = Variable::texts("area_name".into(), vec![area, length], names, width);
+    name.says("long_name", "what an area that was reported is called");
+    file.variables.push(name);
+    let mut numbers = |name: &str, along: Dimension, numbers: Vec<f64>, long_name: &str, units: &str| {
+        let mut variable = Variable::numbers(name.into(), along, numbers);
+        variable.says("long_name", long_name);
+        variable.says("units", units);
+        file.variables.push(variable);
+    };
+    let of = areas.iter().map(|(number, _)| f64::from(*number)).collect();
+    numbers("area_report", area, of, "the report that it is in, from 0", "1");
+    let counts = areas.iter().map(|(_, area)| area.corners.len() as f64).collect();
+    numbers("area_corners", area, counts, "how many of the corners are of it, in order", "1");
+    let corners: Vec<&Place> = areas.iter().flat_map(|(_, area)| &area.corners).collect();
+    let corner = file.dimension("corner", corners.len());
+    let mut place = |name: &str, of: fn(&Place) -> f64, long_name: &str, units: &str| {
+        let places = corners.iter().map(|corner| filled(of(corner))).collect();
+        let mut variable = Variable::numbers(name.into(), corner, places);
+        variable.says("long_name", long_name);
+        variable.says("units", units);
+        file.variables.push(variable);
+    };
+    if run.about.is_on_globe {
+        place("corner_lat", |place| place.latitude, "latitude of a corner", "degrees_north");
+        place("corner_lon", |place| place.longitude, "longitude of a corner", "degrees_east");
+    } else {
+        place("corner_y", |place| place.north, "north of a corner", "m");
+        place("corner_x", |place| place.east, "east of a corner", "m");
     }
 }
 

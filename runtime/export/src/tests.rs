@@ -14,6 +14,11 @@ fn column(name: &str, unit: &'static str, role: Option<Role>, values: Values) ->
     Column { name: name.into(), unit, meaning: EVIL.into(), role, standard_name: None, values }
 }
 
+fn triangle(name: &str) -> Outline {
+    let corners = vec![place(0.0, f64::NAN), place(9.0, f64::NAN), Place { east: 50.0, ..place(4.0, f64::NAN) }];
+    Outline { name: name.into(), corners }
+}
+
 fn run() -> Exported {
     let numbers = |numbers: [f64; 3]| Values::Numbers(numbers.to_vec());
     Exported {
@@ -36,16 +41,15 @@ fn run() -> Exported {
         ],
         believed: Track(vec![place(0.0, 1.0), Place::UNKNOWN, place(2.0, f64::NAN)]),
         truth: Some(Track(vec![place(0.0, 1.0), place(1.0, 1.0), place(2.0, 1.0)])),
-        outlines: vec![Outline {
-            name: EVIL.into(),
-            corners: vec![place(0.0, 0.0), place(9.0, 0.0), Place { east: 50.0, ..place(4.0, 0.0) }],
-        }],
+        outlines: vec![triangle(EVIL)],
+        true_outlines: vec![triangle(EVIL)],
         reports: vec![Reported {
             tick: 1,
             name: EVIL.into(),
             told: EVIL.into(),
             place: Some(place(3.0, f64::NAN)),
-            value: json!({ "value": EVIL }),
+            areas: vec![triangle("found"), Outline { name: "nowhere".into(), corners: vec![Place::UNKNOWN; 4] }],
+            value: json!({ "value": EVIL, "found": { "corners": [1, 2, 3], "surface_m2": 7 } }),
         }],
         events: vec![
             Happened { tick: 0, verb: "log".into(), text: EVIL.into() },
@@ -100,13 +104,43 @@ fn maps_go_round_against_the_clock_and_tell_heights() {
     let map: Value = serde_json::from_str(&text("track.geojson", &run())).unwrap();
     let features = map["features"].as_array().unwrap();
     let kinds: Vec<&Value> = features.iter().map(|feature| &feature["properties"]["kind"]).collect();
-    assert_eq!(kinds, ["track", "track", "area", "report"]);
+    assert_eq!(kinds, ["track", "track", "area", "true outline", "report", "reported area"]);
     // The second tick is no whole second, and the last is not known to be anywhere deep.
     assert_eq!(features[0]["geometry"]["coordinates"], json!([[-75.5, 36, -1], [-75.5, 36.00002]]));
     assert_eq!(features[0]["properties"]["times"], json!(["2026-08-14T05:00:00.250Z", "2026-08-14T05:00:00.750Z"]));
     let ring = features[2]["geometry"]["coordinates"][0].as_array().unwrap();
     assert!(ring.len() == 4 && ring[0] == ring[3]);
-    assert_eq!(features[3]["properties"]["report"]["value"], EVIL);
+    assert_eq!(features[3]["properties"]["name"], format!("true outline of {EVIL}"));
+    assert_eq!(features[4]["properties"]["report"]["value"], EVIL);
+    assert_eq!(
+        (&features[5]["geometry"], &features[5]["properties"]["name"]),
+        (&features[2]["geometry"], &json!("found"))
+    );
+    assert_eq!(
+        features[5]["properties"]["report"]["found"],
+        json!({ "surface_m2": 7 }),
+        "its corners are its geometry"
+    );
+}
+
+/// Those that lie nowhere on the globe are in no map.
+#[test]
+fn what_was_reported_and_what_is_so_are_polygons_apart() {
+    let map = text("track.kml", &run());
+    let tree = roxmltree::Document::parse(&map).unwrap();
+    let placemarks = tree.descendants().filter(|node| node.tag_name().name() == "Placemark");
+    let child = |node: roxmltree::Node, name: &str| {
+        node.children().find(|child| child.tag_name().name() == name).and_then(|child| child.text()).map(str::to_string)
+    };
+    let polygons = placemarks.filter(|node| node.children().any(|child| child.tag_name().name() == "Polygon"));
+    let told: Vec<_> = polygons.map(|node| (child(node, "styleUrl"), child(node, "name"))).collect();
+    let expected = [
+        ("#area", EVIL.into()),
+        ("#true_outline", format!("true outline of {EVIL}")),
+        ("#reported_area", "found".into()),
+    ];
+    assert_eq!(told, expected.map(|(style, name)| (Some(style.to_string()), Some(name))));
+    assert_eq!(text("track.gpx", &run()).matches("<rte>").count(), 2);
 }
 
 /// A name that two columns would have is given once.

@@ -1,12 +1,13 @@
 //! What the picture of a run is made of: what is known of its world, and what is gathered while it goes.
 
+use crate::boundary::{drawn, drawn_since_start, room};
 use crate::recorders::{InMemory, WorldAtEnd};
 use crate::summary::{Report, Summary};
 use albacore_geometry::{Geodetic, Point, Vector};
 use albacore_program::number;
 use albacore_sim::Scenario;
 use albacore_trace::{Depths, Picture};
-use albacore_vehicle::TICK_S;
+use albacore_vehicle::{TICK_S, seconds};
 use std::ops::RangeInclusive;
 
 /// What is so in a world before any run, with the flow that carries its plume, m/s.
@@ -43,10 +44,11 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
     let sounded = if deepest.is_some() { results.area.as_slice() } else { &[] };
     let depth = |p| if world.in_simulation { scenario.environment.bottom.depth_at(p) } else { f64::NAN };
     if let Some(ticks) = &track.zoom {
-        return of_a_time(run, ticks).svg();
+        return of_a_time(run, world, ticks).svg();
     }
     let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
-    Picture {
+    let slicks = if world.in_simulation { results.slicks.as_slice() } else { &[] };
+    let mut picture = Picture {
         title: summary.mission.clone(),
         subtitle: subtitle(&summary, results.plan.program.mission.origin),
         depths: Depths::sound(sounded, depth),
@@ -56,6 +58,7 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         deepest,
         map: results.map.clone(),
         outlines: results.areas.clone().into_iter().collect(),
+        true_outlines: drawn_since_start(slicks, seconds(results.ticks)),
         start: results.start,
         track: track.points.clone(),
         behaviors: track.behaviors.clone(),
@@ -65,15 +68,18 @@ pub(crate) fn of_run(run: &InMemory, world: &WorldAtEnd) -> String {
         profile: track.profile.clone(),
         reports: summary.reports.iter().filter_map(place).collect(),
         ..of_world(scenario, scenario.environment.flow.mean)
-    }
-    .svg()
+    };
+    let outlines = picture.true_outlines.iter().flat_map(|named| [named.corners.as_slice(), &named.before]);
+    picture.water = room(picture.extent(), outlines);
+    picture.svg()
 }
 
 /// A source so near to the track is shown beside it, m.
 const BESIDE_M: f64 = 30.0;
 
-/// The picture of a time of a run, in ticks: the track and what was detected and reported in it. The plume is known as it is at the end alone.
-fn of_a_time(run: &InMemory, ticks: &RangeInclusive<u64>) -> Picture {
+/// The picture of a time of a run, in ticks: the track and what was detected and reported in it, in what of the true outlines is there at its end. The plume is
+/// known as it is at the end of the run alone.
+fn of_a_time(run: &InMemory, world_at_end: &WorldAtEnd, ticks: &RangeInclusive<u64>) -> Picture {
     let InMemory { results, track, .. } = run;
     let (summary, scenario) = (results.summary(0.0), &results.plan.scenario);
     let from_to = [ticks.start(), ticks.end()].map(|tick| number::seconds(*tick).trim().to_string());
@@ -85,9 +91,11 @@ fn of_a_time(run: &InMemory, ticks: &RangeInclusive<u64>) -> Picture {
     let place = |report: &Report| Some((report.name.clone(), Point::new(report.north_m?, report.east_m?)));
     let world = of_world(scenario, scenario.environment.flow.mean);
     let is_beside = |(_, source): &(String, Point)| track.points.iter().any(|(at, _)| at.distance(*source) < BESIDE_M);
+    let slicks = if world_at_end.in_simulation { results.slicks.as_slice() } else { &[] };
     Picture {
         title: summary.mission.clone(),
         subtitle,
+        true_outlines: drawn(slicks, seconds(results.ticks.min(*ticks.end()))),
         track: track.points.clone(),
         behaviors: track.behaviors.clone(),
         rounds: track.rounds.clone(),

@@ -55,7 +55,7 @@ pub fn report(
     let mut folded = fold.finish(summary.ticks);
     happenings::add_tried(&mut folded.happenings, &decisions);
     let results = &memory.results;
-    let extent = world::extent(results, folded.reach);
+    let extent = world::extent(results, folded.reach, past.in_simulation());
     let plume = if is_link { None } else { world::plume(plan, header.seed, summary.ticks, extent) };
     let at_end = plume.as_ref().map(|plume| plume.at_end.clone()).unwrap_or_default();
     let picture = picture::of_run(memory, &WorldAtEnd { in_simulation: past.in_simulation(), plume: at_end });

@@ -127,6 +127,25 @@ pub(crate) fn corners(shape: &Shape, words: &[f64]) -> Option<Vec<Point>> {
     Some(corners.map(|corner| Point::new(corner[0], corner[1])).collect())
 }
 
+/// The areas in a value, also those of a record or an optional, each with its name.
+pub(crate) fn areas(name: &str, shape: &Shape, words: &[f64]) -> Vec<(String, Vec<Point>)> {
+    match shape {
+        Shape::Area(_) => corners(shape, words).map(|corners| (name.to_string(), corners)).into_iter().collect(),
+        Shape::Optional(_) if words.first() != Some(&1.0) => Vec::new(),
+        Shape::Optional(shape) => areas(name, shape, words.get(1..).unwrap_or_default()),
+        Shape::Record(_, fields) => {
+            let mut rest = words;
+            let field = |(label, shape): &(String, Shape)| {
+                let (field, after) = rest.split_at((shape.words() as usize).min(rest.len()));
+                rest = after;
+                areas(&format!("{name}.{label}"), shape, field)
+            };
+            fields.iter().flat_map(field).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
 fn grid(words: &[f64]) -> Grid {
     let word = |i: usize| words.get(i).copied().unwrap_or(0.0);
     Grid {

@@ -91,7 +91,7 @@ impl Shown {
                 None => absent.push(name),
             }
         }
-        let filaments = world.has_plume().then(|| simulator.filaments().count());
+        let filaments = world.has_filaments().then(|| simulator.filaments().count());
         let svg = view::svg(&lowered.name, &world, &simulator, seed);
         Ok(Shown { name: lowered.name, bases: lowered.bases, clauses, absent, filaments, svg })
     }

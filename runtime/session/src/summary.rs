@@ -1,6 +1,6 @@
 //! The result of a run, as `run --json` prints it.
 
-use albacore_geometry::Geodetic;
+use albacore_geometry::{Geodetic, Point};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -157,6 +157,9 @@ pub struct Report {
     /// What was reported and beside it, in words, but for the place of its own.
     #[serde(skip)]
     pub told: String,
+    /// The corners of the areas in it, in the mission's frame, by their names: its own, else its labels.
+    #[serde(skip)]
+    pub areas: Vec<(String, Vec<Point>)>,
     /// What that distance is from, in words.
     #[serde(skip)]
     pub error_from: Option<&'static str>,

@@ -71,8 +71,12 @@ impl Scenario {
 
     /// Whether there is any chemical to be sensed.
     pub fn has_plume(&self) -> bool {
-        let environment = &self.environment;
-        environment.plume.is_some() || environment.recording.is_some() || !environment.spills.is_empty()
+        self.has_filaments() || !self.environment.spills.is_empty()
+    }
+
+    /// Whether there are filaments of a plume: what is carried by the flow.
+    pub fn has_filaments(&self) -> bool {
+        self.environment.plume.is_some() || self.environment.recording.is_some()
     }
 
     /// Each of them is looked at whenever the vehicle senses.

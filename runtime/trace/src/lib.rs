@@ -20,6 +20,6 @@ pub use behavior::{BehaviorTrace, Header, Release};
 pub use compare::{Deed, Difference, deeds, first_difference, first_foreign_line, is_decision, same_behavior};
 pub use condition::{TriedCondition, TriedTerm};
 pub use digest::Digest;
-pub use picture::{Cells, Depths, Picture, Profile, Sounding};
+pub use picture::{Cells, Depths, Picture, Profile, Sounding, TrueOutline};
 pub use record::{Ending, Step, TickRecord, areas};
 pub use words::control_name;

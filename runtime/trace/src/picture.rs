@@ -8,6 +8,7 @@ mod labels;
 mod panel;
 mod profile;
 mod track;
+mod true_outline;
 
 use albacore_geometry::{Point, Vector};
 use albacore_svg::{self as svg, PALETTE, Svg};
@@ -15,6 +16,7 @@ pub use cells::Cells;
 pub use contours::Depths;
 use frame::Frame;
 pub use profile::{Profile, Sounding};
+pub use true_outline::TrueOutline;
 
 /// Beyond this a coordinate is no place that a vehicle goes to.
 const COORDINATE_MAX_M: f64 = 1e8;
@@ -63,6 +65,8 @@ pub struct Picture {
     pub reports: Vec<(String, Point)>,
     /// The true sources, by name.
     pub sources: Vec<(String, Point)>,
+    /// What chemical truly lies within. They may leave the chart.
+    pub true_outlines: Vec<TrueOutline>,
     /// Of sources that are lines both ends; the first is the place of the source.
     pub leaks: Vec<[Point; 2]>,
     /// The bottom's shape, where it is what is searched.
@@ -121,8 +125,8 @@ impl Picture {
         }
     }
 
-    /// All points that must be on the chart. The plume may leave it.
-    fn extent(&self) -> impl Iterator<Item = Point> {
+    /// All points that must be on the chart. The plume may leave it, and so may true outlines.
+    pub fn extent(&self) -> impl Iterator<Item = Point> {
         let places = self.reports.iter().chain(&self.sources).map(|(_, p)| *p);
         let all = self
             .area

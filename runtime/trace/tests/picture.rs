@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that fails may panic")]
 
 use albacore_geometry::{Area, Grid, Heading, Point, Vector};
-use albacore_trace::{Cells, Depths, Digest, Picture, Profile, Sounding};
+use albacore_trace::{Cells, Depths, Digest, Picture, Profile, Sounding, TrueOutline};
 
 fn full() -> Picture {
     let area = Area::rectangle(Point::ORIGIN, Heading::from_degrees(320.0), 1094.0, 367.0);
@@ -317,4 +317,30 @@ fn names_that_are_said_again_and_again_never_stand_on_each_other() {
     let svg = Picture { reports, ..Picture::default() }.svg();
     let count = svg.matches(">thermocline crossed</text>").count();
     assert!((2..20).contains(&count), "{count}");
+}
+
+/// As it is and, where that is to be seen, as it was; beneath the track, and without a say in how much of the world is seen.
+#[test]
+fn a_true_outline_is_drawn_beneath_the_track_as_it_is_and_as_it_was() {
+    let ring = |east: f64| -> Vec<Point> {
+        let angle = |i: u32| Heading::from_degrees(f64::from(10 * i));
+        (0..36).map(|i| Point::new(0.0, east) + 60.0 * angle(i).unit()).collect()
+    };
+    let with = |named: TrueOutline| Picture { true_outlines: vec![named], ..full() }.svg();
+    let oil = |before: f64| TrueOutline { name: "oil".into(), corners: ring(0.0), before: ring(before) };
+    let svg = with(oil(-100.0));
+    check(&svg);
+    assert!(svg.contains(">oil</text>") && svg.contains(">true outline</text>"));
+    assert!(svg.contains(">true outline at the start</text>"));
+    assert!(svg.find("fill-opacity=\"0.14\"").unwrap() < svg.find("stroke=\"#0072b2\"").unwrap());
+    let still = with(oil(0.1));
+    assert!(still.contains(">true outline</text>") && !still.contains("at the start"), "it has hardly moved");
+    let far = with(TrueOutline { name: "far".into(), corners: ring(1e6), before: Vec::new() });
+    assert!(!far.contains(">far<") && !far.contains("true outline"));
+    let scale = |svg: &str| svg.contains(">200 m<");
+    assert!(scale(&svg) && scale(&far));
+    let around = [(-1e5, -1e5), (1e5, -1e5), (1e5, 1e5), (-1e5, 1e5)].map(|(n, e)| Point::new(n, e)).to_vec();
+    let within = with(TrueOutline { name: "all".into(), corners: around, before: Vec::new() });
+    assert!(within.contains(">true outline</text>"), "all of the chart lies within it");
+    check(&with(TrueOutline { name: "none".into(), corners: vec![Point::new(f64::NAN, 0.0); 4], before: Vec::new() }));
 }

@@ -14,7 +14,7 @@ use albacore_geometry::{Point, TangentFrame};
 use albacore_program::seen::one_line;
 use albacore_trace::journal::JournalHeader;
 use albacore_trace::{Step, TickRecord};
-use albacore_vehicle::{Measurement, TICK_S, measurements};
+use albacore_vehicle::{Measurement, TICK_S, measurements, seconds};
 use sensed::Sensed;
 use serde_json::{Map, Value, json};
 
@@ -68,15 +68,14 @@ impl ForExport {
     pub fn exported(self, epoch_ms: Option<i64>) -> Exported {
         let summary = self.results.summary(0.0);
         let frame = self.frame;
-        let at = |corner: &Point| place(frame, *corner, f64::NAN);
-        let outline = |(name, corners): (&str, &[Point])| Outline {
-            name: one_line(name),
-            corners: corners.iter().map(at).collect(),
-        };
+        let outline = |(name, corners): (&str, &[Point])| outline(frame, name, corners);
         let areas = &self.results.plan.program.mission.areas;
         let area_name = areas.first().map_or("area", |area| area.name.as_str());
         let regions = self.results.regions.iter().map(|(name, corners)| (name.as_str(), corners.as_slice()));
         let area = (!self.results.area.is_empty()).then_some((area_name, self.results.area.as_slice()));
+        let slicks = self.results.slicks.iter().filter(|_| !self.truth.is_empty());
+        let end = self.ticks.last().copied().map_or(0.0, seconds);
+        let true_outlines = slicks.filter_map(|slick| Some((slick.name(), slick.outline(end)?)));
         Exported {
             about: About {
                 version: env!("CARGO_PKG_VERSION").to_string(),
@@ -90,6 +89,7 @@ impl ForExport {
                 is_on_globe: frame.is_some(),
             },
             outlines: area.into_iter().chain(regions).map(outline).collect(),
+            true_outlines: true_outlines.map(|(name, area)| outline((name, area.corners()))).collect(),
             reports: summary.reports.iter().map(|report| reported(report, frame)).collect(),
             columns: self.sensed.columns.finish(self.ticks.len()),
             ticks: self.ticks,
@@ -167,17 +167,23 @@ fn place(frame: Option<TangentFrame>, at: Point, depth: f64) -> Place {
     }
 }
 
+fn outline(frame: Option<TangentFrame>, name: &str, corners: &[Point]) -> Outline {
+    Outline { name: one_line(name), corners: corners.iter().map(|corner| place(frame, *corner, f64::NAN)).collect() }
+}
+
 fn reported(report: &Report, frame: Option<TangentFrame>) -> Reported {
     let at = report.north_m.zip(report.east_m).map(|(north, east)| Point::new(north, east));
     let mut value = Map::new();
     value.insert("value".to_string(), seen(&report.value));
     value.extend(report.labelled.iter().map(|(label, labelled)| (one_line(label), seen(labelled))));
     value.extend(report.error_m.map(|error| ("error_m".to_string(), json!(error))));
+    value.extend(report.true_surface_m2.map(|surface| ("true_surface_m2".to_string(), json!(surface))));
     Reported {
         tick: (report.t_s / TICK_S).round() as u64,
         name: one_line(&report.name),
         told: one_line(&report.told),
         place: at.map(|at| place(frame, at, f64::NAN)),
+        areas: report.areas.iter().map(|(name, corners)| outline(frame, name, corners)).collect(),
         value: Value::Object(value),
     }
 }

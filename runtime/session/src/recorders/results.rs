@@ -4,7 +4,7 @@ use super::Recorder;
 use super::account::Account;
 use crate::boundary::true_outline;
 use crate::plan::Plan;
-use crate::reported::{Reader, corners, fields};
+use crate::reported::{Reader, areas, corners, fields};
 use crate::summary::{Origin, Report, Summary};
 use albacore_geometry::{Area, Point, Vector};
 use albacore_machine::{Event, Outcome};
@@ -301,9 +301,11 @@ impl Results {
         for (label, shape, words) in fields(site, words) {
             let name = if label.is_empty() { &site.name } else { label };
             self.map = reader.cells(name, shape, words).or(self.map.take());
-            let corners =
-                corners(shape, words).filter(|_| self.areas.len() < AREAS_DRAWN_MAX || self.areas.contains_key(name));
-            self.areas.extend(corners.map(|corners| (name.to_string(), corners)));
+            for (name, corners) in areas(name, shape, words) {
+                if self.areas.len() < AREAS_DRAWN_MAX || self.areas.contains_key(&name) {
+                    self.areas.insert(name, corners);
+                }
+            }
         }
         if !self.reports.admits(id, words.len()) {
             return;
@@ -315,6 +317,9 @@ impl Results {
             outlines.next().filter(|_| !self.slicks.is_empty()).and_then(|corners| Area::polygon(&corners).ok());
         let spill = found.and_then(|found| self.off_the_spill(&found, t_s));
         let values = fields(site, words).map(|(label, shape, words)| (label.to_string(), reader.json(shape, words)));
+        let areas = fields(site, words)
+            .flat_map(|(label, shape, words)| areas(if label.is_empty() { &site.name } else { label }, shape, words));
+        let areas = areas.collect();
         let is_own_place = |label: &str, shape: &Shape| label.is_empty() && *shape == Shape::Point;
         let told = fields(site, words).filter(|(label, shape, _)| !is_own_place(label, shape));
         let told = told.map(|(label, shape, words)| match (label, number::value_with(&program.texts, shape, words)) {
@@ -343,6 +348,7 @@ impl Results {
             }),
             error_from: spill.map(|_| "the outline of the spill").or(sought.map(|(_, what)| what)),
             told,
+            areas,
             value: values.remove("").unwrap_or_default(),
             labelled: values,
         });

@@ -6,7 +6,7 @@ pub use super::live::Increment;
 pub use super::recorder::NewParts;
 pub use super::series::Series;
 pub use super::spans::{NewSpans, Spans};
-pub use super::world::{BottomCells, Extent, KnownWorld, Named, PlumeFrames};
+pub use super::world::{BottomCells, Extent, KnownWorld, MovingOutline, Named, PlumeFrames};
 use crate::summary::Report;
 use albacore_program::seen::one_line;
 use serde::Serialize;

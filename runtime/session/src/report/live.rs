@@ -91,7 +91,7 @@ impl LiveReport {
     pub(crate) fn new(script: &Script, plan: &Plan, header: &JournalHeader) -> Self {
         let results = Results::new(plan, header.seed, header.start);
         let is_link = matches!(header.world, World::Link);
-        let extent = world::extent(&results, None);
+        let extent = world::extent(&results, None, !is_link);
         let bottom = world::bottom(&results, extent, !is_link);
         LiveReport(Mutex::new(State {
             fold: Fold::new(plan, header),
@@ -170,7 +170,7 @@ impl State {
     /// Follows what is known of the world. While the run goes on a map has room, so that it is seldom made anew; in the end it is as that
     /// of any report.
     fn look_about(&mut self) {
-        let needed = world::extent(&self.results, self.fold.reach());
+        let needed = world::extent(&self.results, self.fold.reach(), self.is_simulated);
         let results = &self.results;
         let (shown, of) =
             (self.world.extent, (results.reports.in_all(), !results.area.is_empty(), results.start.is_some()));

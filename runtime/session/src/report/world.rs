@@ -1,12 +1,13 @@
-//! The world of a run as its page shows it: areas, the bottom, sources, and the plume as it moved, which is simulated once more from the
-//! run's seed.
+//! The world of a run as its page shows it: areas, the bottom, sources, the true outlines of spills with how they move, and the plume as it
+//! moved, which is simulated once more from the run's seed.
 
 use super::series::packed;
+use crate::boundary::room;
 use crate::plan::Plan;
 use crate::recorders::results::Results;
 use albacore_geometry::{Point, TangentFrame};
 use albacore_program::seen::one_line;
-use albacore_sim::World;
+use albacore_sim::{Slick, World};
 use albacore_vehicle::seconds;
 use serde::Serialize;
 
@@ -53,6 +54,8 @@ pub struct KnownWorld {
     pub no_go: Vec<Named>,
     /// True sources; of one that is a line both its ends.
     pub sources: Vec<Named>,
+    /// The true outlines of spills.
+    pub true_outlines: Vec<MovingOutline>,
     /// The deepest point, where it is sought, m.
     pub deepest: Option<(f64, f64)>,
     /// Where the vehicle started, m.
@@ -63,6 +66,36 @@ pub struct KnownWorld {
     pub flow: Option<(f64, f64)>,
     /// Whether the truth is known.
     pub is_simulated: bool,
+}
+
+/// The true outline of a spill. Each of its corners moves along a straight line, so that a page has it at any moment.
+#[derive(Clone, Debug, Serialize)]
+pub struct MovingOutline {
+    /// Its name.
+    pub name: String,
+    /// North and east of its corners when the run begins, dm, in two packed lists.
+    pub at: [Vec<Option<i64>>; 2],
+    /// How fast they move north and east, um/s, in two packed lists.
+    pub moves: [Vec<Option<i64>>; 2],
+    /// In what time half of the chemical is gone, s; none where it stays.
+    pub half_life_s: Option<f64>,
+}
+
+impl MovingOutline {
+    fn new(slick: &Slick) -> Self {
+        let whole = |x: f64, scale: f64| x.is_finite().then(|| (x * scale).round() as i64);
+        let (corners, motion) = (slick.corners(0.0), slick.motion());
+        let moves: Vec<_> = motion.map(|v| (whole(v.north, 1e6), whole(v.east, 1e6))).collect();
+        MovingOutline {
+            name: one_line(slick.name()),
+            at: [
+                packed(corners.iter().map(|p| whole(p.north, 10.0))),
+                packed(corners.iter().map(|p| whole(p.east, 10.0))),
+            ],
+            moves: [packed(moves.iter().map(|v| v.0)), packed(moves.iter().map(|v| v.1))],
+            half_life_s: slick.half_life(),
+        }
+    }
 }
 
 /// The depth of the water in cells.
@@ -146,12 +179,18 @@ impl Extent {
     }
 }
 
-/// All that must be on the map.
-pub(super) fn extent(results: &Results, reach: Option<Extent>) -> Extent {
+/// All that must be on the map, so far.
+pub(super) fn extent(results: &Results, reach: Option<Extent>, is_simulated: bool) -> Extent {
     let sources = results.plan.scenario.environment.sources.iter().map(|source| source.at);
     let reports = results.reports.listed.iter().filter_map(|report| Some(Point::new(report.north_m?, report.east_m?)));
     let areas = results.area.iter().chain(results.regions.iter().flat_map(|(_, corners)| corners)).copied();
-    Extent::of(areas.chain(sources).chain(reports).chain(results.start), reach)
+    let reported = results.areas.values().flatten().copied();
+    let shown = Extent::of(areas.chain(sources).chain(reports).chain(reported).chain(results.start), reach);
+    let slicks = results.slicks.iter().filter(|_| is_simulated);
+    let outlines: Vec<_> =
+        slicks.flat_map(|slick| [0.0, seconds(results.ticks)].map(|time| slick.corners(time))).collect();
+    let room = room([shown.at(0.0, 0.0), shown.at(1.0, 1.0)].into_iter(), outlines.iter().map(Vec::as_slice));
+    room.into_iter().filter_map(Extent::at_point).fold(shown, |shown, p| p.with(Some(shown)))
 }
 
 /// What is known of the world beside the plume.
@@ -172,6 +211,7 @@ pub(super) fn known(results: &Results, extent: Extent, is_simulated: bool, botto
         outlines: results.areas.iter().map(|(name, at)| named(name, at)).collect(),
         no_go: environment.no_go.iter().map(|zone| named(&zone.name, zone.area.corners())).collect(),
         sources: sources.collect(),
+        true_outlines: results.slicks.iter().filter(|_| is_simulated).map(MovingOutline::new).collect(),
         deepest: results.deepest_sought().map(pair),
         start: results.start.map(pair),
         bottom,
@@ -208,10 +248,10 @@ fn metres(x: f64) -> f64 {
     if x.is_finite() { (x * 10.0).round() / 10.0 } else { 0.0 }
 }
 
-/// The plume of a run, simulated once more from its seed. None where its scenario has none.
+/// The plume of a run, simulated once more from its seed. None where its scenario has no filaments.
 pub(super) fn plume(plan: &Plan, seed: u64, ticks: u64, extent: Extent) -> Option<SimulatedPlume> {
     let (scenario, ticks) = (&plan.scenario, ticks.min(TICKS_MAX));
-    if !scenario.has_plume() || scenario.validate().is_err() {
+    if !scenario.has_filaments() || scenario.validate().is_err() {
         return None;
     }
     let lasts = seconds(ticks) as u64;

@@ -1,8 +1,9 @@
 //! The picture of a scenario: its world when a run begins.
 
+use crate::boundary::drawn;
 use crate::picture;
 use albacore_geometry::Point;
-use albacore_sim::{Ground, Scenario, Simulator};
+use albacore_sim::{Ground, Scenario, Simulator, Slick};
 use albacore_trace::{Depths, Picture};
 
 /// A picture without region and survey shows so much water around the vehicle, m to each side.
@@ -20,12 +21,15 @@ pub(super) fn svg(name: &str, scenario: &Scenario, simulator: &Simulator, seed: 
     let known = scenario.environment.region.as_ref().map(|region| (region, "region"));
     let known = known.or(surveyed.as_ref().map(|area| (area, "survey")));
     let (area, area_name) = known.map_or_else(Default::default, |(area, name)| (area.corners().to_vec(), name));
-    let water = if area.is_empty() { near(start, &route, scenario) } else { area.clone() };
+    let true_outlines = drawn(&Slick::all(&scenario.environment.spills, seed), 0.0);
+    let mut water = if area.is_empty() { near(start, &route, scenario) } else { area.clone() };
+    water.extend(true_outlines.iter().flat_map(|named| &named.corners));
     Picture {
         title: format!("scenario {name}"),
         subtitle: vec![format!("as it is when a run with seed {seed} begins")],
         depths: Depths::sound(&water, |p| simulator.water_depth(p)),
         water,
+        true_outlines,
         area,
         area_name: area_name.into(),
         route,

@@ -109,15 +109,33 @@ impl Slick {
             edge if edge > 0.0 => 0.5 * (1.0 + tanh(2.0 * inside / edge)),
             _ => f64::from(u8::from(inside >= 0.0)),
         };
-        self.spill.level * share * self.spill.half_life.map_or(1.0, |half_life| exp(-LN_2 * time / half_life))
+        self.spill.level * share * self.left(time).unwrap_or(1.0)
+    }
+
+    /// What share of it is left at a time (s of the run); none where it stays.
+    pub fn left(&self, time: f64) -> Option<f64> {
+        self.spill.half_life.map(|half_life| exp(-LN_2 * time / half_life))
+    }
+
+    /// In what time half of it is gone, s; none where it stays.
+    pub fn half_life(&self) -> Option<f64> {
+        self.spill.half_life
     }
 
     /// Its outline at a time (s of the run), clockwise, without its roughness: there a sensor reads half of what it does inside. None where it is no area any
     /// more, because shear has drawn it out.
     pub fn outline(&self, time: f64) -> Option<Area> {
-        let corners: Vec<Point> =
-            self.radii.corners().map(|before| self.centre(time) + before + time * self.sheared(before)).collect();
-        Area::polygon(&corners).ok()
+        Area::polygon(&self.corners(time)).ok()
+    }
+
+    /// The corners of that outline, whatever they make.
+    pub fn corners(&self, time: f64) -> Vec<Point> {
+        self.radii.corners().map(|before| self.centre(time) + before + time * self.sheared(before)).collect()
+    }
+
+    /// How fast each of its corners moves, m/s: all the time alike.
+    pub fn motion(&self) -> impl Iterator<Item = Vector> + '_ {
+        self.radii.corners().map(|before| self.spill.drift + self.sheared(before))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The chart itself, from the bottom up: water, grid, depths, plume, area, track, detections, marks, labels.
 
-use super::{Picture, frame::Frame, is_place, labels::Labels, style, svg::Svg, svg::px, track::Run};
+use super::{Picture, frame::Frame, is_place, labels::Labels, style, svg::Svg, svg::px, track::Run, true_outline};
 use albacore_geometry::Point;
 use albacore_program::number::fixed;
 use std::{collections::BTreeSet, fmt::Write};
@@ -54,6 +54,7 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     picture.depths.draw(svg, frame);
     picture.map.iter().for_each(|map| map.draw(svg, frame));
     plume(svg, picture, frame);
+    picture.true_outlines.iter().for_each(|true_outline| true_outline.draw(svg, frame));
     area(svg, picture, frame, "fill=\"none\" stroke=\"#333\" stroke-width=\"1.3\" stroke-dasharray=\"8 5\"");
     for (_, corners) in &picture.regions {
         region(svg, &outline(corners, frame));
@@ -76,7 +77,8 @@ pub fn draw(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     axes(svg, frame);
 }
 
-fn outline(corners: &[Point], frame: &Frame) -> Vec<(f64, f64)> {
+/// The corners that can be drawn, on the page.
+pub fn outline(corners: &[Point], frame: &Frame) -> Vec<(f64, f64)> {
     corners.iter().filter(|p| is_place(**p)).map(|p| frame.place(*p)).collect()
 }
 
@@ -268,8 +270,9 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     let mut around = outline(&picture.area, frame);
     around.extend(around.first().copied());
     let leaks = leaks(&picture.leaks, frame);
+    let chemical: Vec<_> = picture.true_outlines.iter().map(|named| outline(&named.corners, frame)).collect();
     let lines = runs.iter().map(|run| run.points.as_slice()).chain([around.as_slice()]);
-    let lines = lines.chain(leaks.iter().map(Vec::as_slice));
+    let lines = lines.chain(leaks.iter().chain(&chemical).map(Vec::as_slice));
     let mut labels = Labels::new(lines, &taken);
 
     rounds.iter().for_each(|(_, at)| round_mark(svg, *at));
@@ -295,6 +298,11 @@ fn marks(svg: &mut Svg, picture: &Picture, frame: &Frame, runs: &[Run]) {
     }
     for (name, at) in &sources {
         labels.put(svg, frame, *at, name, SOURCE);
+    }
+    for (named, corners) in picture.true_outlines.iter().zip(&chemical) {
+        // At its northernmost corner: the middle is where the track and what is reported lie.
+        let top = corners.iter().filter(|at| frame.shows(**at)).min_by(|a, b| a.1.total_cmp(&b.1));
+        top.into_iter().for_each(|at| labels.put(svg, frame, *at, &named.name, true_outline::COLOUR));
     }
     start.into_iter().for_each(|at| labels.put(svg, frame, at, "start", "#111"));
     end.into_iter().for_each(|at| labels.put(svg, frame, at, "end", "#111"));

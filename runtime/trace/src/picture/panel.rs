@@ -2,7 +2,7 @@
 
 use super::{
     Picture, cells, chart, contours, frame::Frame, is_place, profile, style, svg, svg::Svg, svg::px,
-    svg::scale::round_down,
+    svg::scale::round_down, true_outline,
 };
 use albacore_geometry::Vector;
 use albacore_program::number;
@@ -47,6 +47,7 @@ impl<'a> Panel<'a> {
         let map = picture.map.as_ref().map_or("", |map| map.legend.as_str());
         let area = if picture.area_name.is_empty() { "operating area" } else { &picture.area_name };
         let bottom = picture.profile.bottom_name();
+        let outlines = || picture.true_outlines.iter().filter(|named| named.is_seen(frame));
         let there = [
             (picture.start.is_some(), "start", chart::start_mark as Mark),
             (picture.end.is_some(), "end", chart::end_mark),
@@ -56,6 +57,8 @@ impl<'a> Panel<'a> {
             (!picture.no_go.is_empty(), "no-go zone", no_go_mark),
             (!picture.outlines.is_empty(), "reported area", reported_area_mark),
             (!picture.plume.is_empty(), "plume", plume_mark),
+            (outlines().next().is_some(), "true outline", true_outline::mark),
+            (outlines().any(|named| named.has_moved(frame)), "true outline at the start", true_outline::mark_before),
             (!chart::legs(&picture.rounds, frame).is_empty(), "round of a loop begins", chart::round_mark),
             (picture.detections.iter().any(|p| is_place(*p)), "detection", detection_mark),
             (!picture.reports.is_empty(), "report", chart::report_mark),
