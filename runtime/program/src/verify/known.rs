@@ -355,15 +355,37 @@ impl Known {
         }
     }
 
-    /// What is told that differs from what was told at this place before is told no more, so that an end is found.
-    pub fn settle(&mut self, before: &Known) {
+    /// What is told that is more than was told at this place before grows at once as far as whole numbers go, or without end, so that an end is found. What went without saying
+    /// there, because a word was known by itself or the other could not be so, may be told now.
+    pub fn settle(&mut self, before: &Known, ground: &Ground) {
         for (slot, implications) in self.implications.iter_mut() {
-            let told = before.implications.get(*slot).cloned().unwrap_or_default();
+            let told = before.implications(ground, *slot);
+            let flag = before.range(ground, *slot);
             let implications = Rc::make_mut(implications);
-            implications.when.retain(|implied| told.when.contains(implied));
-            implications.unless.retain(|implied| told.unless.contains(implied));
+            let settled = |now: &mut Vec<(Slot, Interval)>, told: &[(Slot, Interval)]| {
+                for (of, range) in now.iter_mut() {
+                    let known = told.iter().filter(|(other, _)| other == of);
+                    let was = known.fold(before.range(ground, *of), |was, (_, range)| was.and(*range));
+                    *range = if was == *range { *range } else { whole(*range, was) };
+                }
+            };
+            if flag.constant() != Some(0.0) {
+                settled(&mut implications.when, &told.when);
+            }
+            if !flag.excludes_zero() {
+                settled(&mut implications.unless, &told.unless);
+            }
         }
     }
+}
+
+/// Where a range grows it reaches as far as whole numbers do, or without end.
+fn whole(range: Interval, was: Interval) -> Interval {
+    let far = |x: f64| if x <= INT_MAX { INT_MAX } else { LARGEST };
+    let both = range.or(was);
+    let low = if both.low >= was.low { both.low } else { -far(-both.low) };
+    let high = if both.high <= was.high { both.high } else { far(both.high) };
+    Interval::new(low, high)
 }
 
 /// A result that grows from round to round is taken to grow to the next of a few bounds.

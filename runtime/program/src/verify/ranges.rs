@@ -18,7 +18,7 @@ use std::ops::Range;
 pub(super) const PATIENCE: u32 = 3;
 
 /// So often a place is come to with words that are more than before; then what still grows is widened, wherever it comes from.
-const ROUNDS_MAX: u32 = 24;
+const ROUNDS_MAX: u32 = 64;
 
 /// What an operation has given in the rounds that were followed.
 #[derive(Clone, Copy)]
@@ -245,7 +245,7 @@ impl<'p> Ranges<'p> {
                         Some((before, times)) => {
                             let mut joined = before.join(&known, &self.ground);
                             if *times >= PATIENCE {
-                                joined.settle(before);
+                                joined.settle(before, &self.ground);
                             }
                             if *times >= ROUNDS_MAX {
                                 joined.widen(before);
