@@ -8,7 +8,7 @@ mod roughness;
 pub use outline::Outline;
 
 use crate::noise::Noise;
-use crate::scenario::{Scenario, ScenarioIssues};
+use crate::scenario::{Scenario, ScenarioIssues, number};
 use albacore_geometry::math::{exp, tanh};
 use albacore_geometry::{Area, Heading, Point, Vector};
 use outline::Radii;
@@ -46,6 +46,9 @@ pub struct Spill {
     pub flicker: f64,
 }
 
+/// An ellipse is so many times as long as wide at most: its outline is known at each degree about its centre.
+const SLENDER_MAX: f64 = 20.0;
+
 /// What of the spills cannot be.
 pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     let spills = &scenario.environment.spills;
@@ -53,6 +56,14 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
         let mut of = objections.nth("spill", i);
         of.name(&spill.name, &spills[..i].iter().map(|other| other.name.as_str()).collect::<Vec<_>>());
         of.flow("drift", spill.drift);
+        if let Outline::Ellipse { length, width, .. } = spill.shape {
+            of.unless(
+                Some("width"),
+                length.max(width) <= SLENDER_MAX * length.min(width),
+                format!("an ellipse of {} m by {} m is too slender to be a spill", number(length), number(width)),
+                format!("make its longer axis {SLENDER_MAX} times the shorter one at most"),
+            );
+        }
         of.unless(
             None,
             scenario.environment.recording.is_none(),
