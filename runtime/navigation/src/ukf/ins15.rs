@@ -1,0 +1,219 @@
+//! Inertial navigation with 15 states, aided by what comes at other rates: the filter of Jayasiri et al. 2016.
+//!
+//! Frames: north-east-down, and the body's own, x forward, y to starboard, z down. Of the paper's frames none makes its Eq. (4) and
+//! Eq. (8) both true; here z is down in both, so that gravity as the accelerometers feel it at rest is (0, 0, -g), and pressure grows
+//! with z. Prediction is Euler's method on Eq. (14), once for each sample of the inertial unit.
+
+mod attitude;
+mod kinematics;
+mod setup;
+
+pub use setup::{Ins15Gates, Ins15Setup};
+
+use super::component::Component;
+use super::filter::{Innovation, Measurement, Ukf, UkfError};
+use attitude::Trigonometry;
+use kinematics::{ATTITUDE, POSITION, VELOCITY, at_rest, derivative, part, process_noise};
+use nalgebra::{SMatrix, SVector, Vector3};
+
+/// The 15 states, Eq. (15); also the standard deviations of their errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InsState {
+    /// Roll, pitch and yaw (zyx), rad.
+    pub attitude: [f64; 3],
+    /// What the gyroscopes tell at rest, rad/s, body.
+    pub gyro_bias: [f64; 3],
+    /// North, east and down, m.
+    pub position: [f64; 3],
+    /// Over ground, m/s, body.
+    pub velocity: [f64; 3],
+    /// What the accelerometers tell too much, m/s2, body.
+    pub accelerometer_bias: [f64; 3],
+}
+
+/// A sample of the inertial unit, Eq. (4) and (6).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Imu {
+    /// Rates of turn, rad/s, body.
+    pub gyro: [f64; 3],
+    /// Specific force, m/s2, body: (0, 0, -g) at rest and level.
+    pub accelerometer: [f64; 3],
+}
+
+/// A velocity over ground, of a Doppler log, Eq. (9), or of a model, Eq. (10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity {
+    /// m/s, body.
+    pub value: [f64; 3],
+    /// The covariance of its noise, m2/s2: of the model that of Eq. (11).
+    pub noise: [[f64; 3]; 3],
+}
+
+/// What came at one moment besides the inertial unit's sample; what did not come is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aiding {
+    /// Roll, pitch and yaw, rad, Eq. (7).
+    pub attitude: Option<[f64; 3]>,
+    /// Pressure above the atmosphere's, Pa, Eq. (8).
+    pub pressure: Option<f64>,
+    /// Of a Doppler log or of a model.
+    pub velocity: Option<Velocity>,
+    /// How long the transponder's signal took to each receiver, s, Eq. (12): of all five, or none. A clock that counts down has half
+    /// its period added.
+    pub arrival: Option<[f64; 5]>,
+}
+
+/// What became of each measurement: none where there was none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aided {
+    /// Of the attitude, rad.
+    pub attitude: Option<Result<Innovation<3>, UkfError>>,
+    /// Of the pressure, Pa.
+    pub pressure: Option<Result<Innovation<1>, UkfError>>,
+    /// Of the velocity, m/s.
+    pub velocity: Option<Result<Innovation<3>, UkfError>>,
+    /// Of the times of arrival, as ranges, m.
+    pub arrival: Option<Result<Innovation<5>, UkfError>>,
+}
+
+/// The filter of Sec. 3: Algorithm 1, lines 4 to 18.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ins15 {
+    filter: Ukf<15>,
+    setup: Ins15Setup,
+}
+
+impl Ins15 {
+    /// Begins with a state, and the standard deviations of its errors.
+    ///
+    /// # Errors
+    ///
+    /// A spread that draws no points, a state that is not finite, deviations of 0.
+    pub fn new(setup: Ins15Setup, start: &InsState, sigma: &InsState) -> Result<Self, UkfError> {
+        let mut components = [Component::Line; 15];
+        components[ATTITUDE + 2] = setup.yaw;
+        let variances = sigma.to_vector().map(|sigma| sigma * sigma);
+        let covariance = SMatrix::from_diagonal(&variances);
+        Ok(Ins15 { filter: Ukf::new(start.to_vector(), &covariance, setup.spread, components)?, setup })
+    }
+
+    /// What the filter believes.
+    pub fn state(&self) -> InsState {
+        InsState::from_vector(self.filter.state())
+    }
+
+    /// The standard deviations of the errors to expect.
+    pub fn sigma(&self) -> InsState {
+        InsState::from_vector(&SVector::from_fn(|i, _| self.filter.variance(i).sqrt()))
+    }
+
+    /// The filter itself, with its states in the order of [`InsState`]'s fields.
+    pub fn filter(&self) -> &Ukf<15> {
+        &self.filter
+    }
+
+    /// Goes on by the time, s, of which the sample is, Eq. (14) with the noise of Eq. (16) at the mean.
+    ///
+    /// # Errors
+    ///
+    /// A sample that is not finite, a covariance that is not positive definite. The filter is as it was.
+    pub fn predict(&mut self, imu: &Imu, time: f64) -> Result<(), UkfError> {
+        let (gyro, force) = (Vector3::from(imu.gyro), Vector3::from(imu.accelerometer));
+        let mut angles = Trigonometry::default();
+        let noise = process_noise(angles.of(self.filter.state()), &self.setup, time);
+        let at_rest = at_rest(self.setup.gravity);
+        let process = |state: &SVector<f64, 15>| {
+            let angles = angles.of(state);
+            state + derivative(state, angles, &gyro, &(force - angles.to_body(&at_rest))) * time
+        };
+        self.filter.predict(process, &noise)
+    }
+
+    /// Takes what came, one after the other in the order of [`Aiding`]'s fields. One that fails or is held back leaves the others theirs.
+    pub fn aid(&mut self, aiding: &Aiding) -> Aided {
+        Aided {
+            attitude: aiding.attitude.map(|value| self.take_attitude(value)),
+            pressure: aiding.pressure.map(|value| self.take_pressure(value)),
+            velocity: aiding.velocity.map(|value| self.take_velocity(&value)),
+            arrival: aiding.arrival.map(|value| self.take_arrival(value)),
+        }
+    }
+
+    /// Eq. (7): the attitude itself.
+    fn take_attitude(&mut self, value: [f64; 3]) -> Result<Innovation<3>, UkfError> {
+        let measurement = Measurement {
+            value: value.into(),
+            noise: diagonal(self.setup.attitude_sigma),
+            // Roll and yaw go round; pitch does not.
+            components: [Component::Circle, Component::Line, Component::Circle],
+            gate: self.setup.gates.attitude,
+        };
+        self.filter.update(&measurement, |state| part(state, ATTITUDE))
+    }
+
+    /// Eq. (8): the weight of the water above the sensor.
+    fn take_pressure(&mut self, value: f64) -> Result<Innovation<1>, UkfError> {
+        let setup = &self.setup;
+        let measurement = Measurement {
+            value: [value].into(),
+            noise: diagonal([setup.pressure_sigma]),
+            components: [Component::Line],
+            gate: setup.gates.pressure,
+        };
+        let (weight, lever) = (setup.density * setup.gravity, Vector3::from(setup.pressure_sensor));
+        let mut angles = Trigonometry::default();
+        self.filter.update(&measurement, |state| {
+            let depth = state[POSITION + 2] + angles.of(state).to_ned(&lever).z;
+            [weight * depth].into()
+        })
+    }
+
+    /// Eq. (9): the velocity itself.
+    fn take_velocity(&mut self, velocity: &Velocity) -> Result<Innovation<3>, UkfError> {
+        let measurement = Measurement {
+            value: velocity.value.into(),
+            noise: velocity.noise.into(),
+            components: [Component::Line; 3],
+            gate: self.setup.gates.velocity,
+        };
+        self.filter.update(&measurement, |state| part(state, VELOCITY))
+    }
+
+    /// Eq. (12) and (13) without the counting of the clock, as ranges: in metres all numbers are of a size.
+    fn take_arrival(&mut self, times: [f64; 5]) -> Result<Innovation<5>, UkfError> {
+        let setup = &self.setup;
+        let measurement = Measurement {
+            value: times.map(|time| time * setup.sound_speed).into(),
+            noise: diagonal([setup.arrival_sigma * setup.sound_speed; 5]),
+            components: [Component::Line; 5],
+            gate: setup.gates.arrival,
+        };
+        let transponder = Vector3::from(setup.transponder);
+        let receivers = setup.receivers.map(Vector3::from);
+        let mut angles = Trigonometry::default();
+        self.filter.update(&measurement, |state| {
+            let (angles, centre) = (angles.of(state), part(state, POSITION) - transponder);
+            receivers.map(|receiver| (centre + angles.to_ned(&receiver)).norm()).into()
+        })
+    }
+}
+
+/// The covariance of independent noises.
+fn diagonal<const M: usize>(sigma: [f64; M]) -> SMatrix<f64, M, M> {
+    SMatrix::from_diagonal(&sigma.map(|sigma| sigma * sigma).into())
+}
+
+impl InsState {
+    /// In the order of the fields.
+    fn to_vector(self) -> SVector<f64, 15> {
+        let parts = [self.attitude, self.gyro_bias, self.position, self.velocity, self.accelerometer_bias];
+        SVector::from_fn(|i, _| parts[i / 3][i % 3])
+    }
+
+    /// The reverse.
+    fn from_vector(state: &SVector<f64, 15>) -> Self {
+        let [attitude, gyro_bias, position, velocity, accelerometer_bias] =
+            std::array::from_fn(|i| part(state, 3 * i).into());
+        InsState { attitude, gyro_bias, position, velocity, accelerometer_bias }
+    }
+}

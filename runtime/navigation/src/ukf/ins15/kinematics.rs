@@ -1,0 +1,57 @@
+//! How the 15 states change in time, and what is not known of it.
+
+use super::attitude::Angles;
+use super::setup::Ins15Setup;
+use nalgebra::{SMatrix, SVector, Vector3};
+
+/// Where roll, pitch and yaw stand among the states.
+pub const ATTITUDE: usize = 0;
+const GYRO_BIAS: usize = 3;
+/// Where north, east and down stand.
+pub const POSITION: usize = 6;
+/// Where the velocity in the body's frame stands.
+pub const VELOCITY: usize = 9;
+const ACCELEROMETER_BIAS: usize = 12;
+
+/// Three of the states.
+#[inline]
+pub fn part(state: &SVector<f64, 15>, first: usize) -> Vector3<f64> {
+    Vector3::new(state[first], state[first + 1], state[first + 2])
+}
+
+/// What accelerometers tell at rest and level, m/s2: up, in a frame whose z is down.
+pub fn at_rest(gravity: f64) -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, -gravity)
+}
+
+/// Eq. (14), a second: with the gyroscopes' rates, rad/s, and what the accelerometers tell beyond what they tell at rest, m/s2.
+#[inline]
+pub fn derivative(
+    state: &SVector<f64, 15>,
+    angles: Angles,
+    gyro: &Vector3<f64>,
+    force: &Vector3<f64>,
+) -> SVector<f64, 15> {
+    let rates = gyro - part(state, GYRO_BIAS);
+    let velocity = part(state, VELOCITY);
+    let attitude = angles.rates() * rates;
+    let position = angles.to_ned(&velocity);
+    let acceleration = force - rates.cross(&velocity) - part(state, ACCELEROMETER_BIAS);
+    let still = Vector3::zeros();
+    let parts = [attitude, still, position, acceleration, still];
+    SVector::from_fn(|i, _| parts[i / 3][i % 3])
+}
+
+/// Eq. (16): the covariance of what a step of so many seconds adds. `J1 (sigma_u^2 I) J1'` is `sigma_u^2 I`.
+#[inline]
+pub fn process_noise(angles: Angles, setup: &Ins15Setup, time: f64) -> SMatrix<f64, 15, 15> {
+    let square = |x: f64| x * x;
+    let mut noise = SMatrix::<f64, 15, 15>::zeros();
+    let rates = angles.rates() * (setup.gyro_sigma * time);
+    noise.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&(rates * rates.transpose()));
+    for axis in 0..3 {
+        noise[(POSITION + axis, POSITION + axis)] = square(setup.velocity_sigma * time);
+        noise[(VELOCITY + axis, VELOCITY + axis)] = square(setup.accelerometer_sigma * time);
+    }
+    noise
+}
