@@ -2,9 +2,11 @@
 
 mod dead_reckoning;
 mod reported;
+mod unscented;
 
 pub use dead_reckoning::DeadReckoning;
 pub use reported::Reported;
+pub use unscented::Unscented;
 
 use crate::navigator::Navigator;
 use albacore_geometry::Point;
@@ -19,6 +21,9 @@ pub enum NavigatorSetup {
         /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
         walk: f64,
     },
+    /// [`Unscented`].
+    #[serde(rename = "ukf")]
+    Unscented(unscented::Settings),
 }
 
 impl Default for NavigatorSetup {
@@ -32,6 +37,11 @@ impl NavigatorSetup {
     pub fn begin(&self, start: Point) -> Box<dyn Navigator> {
         match self {
             NavigatorSetup::DeadReckoning { walk } => Box::new(DeadReckoning::new(start, *walk)),
+            NavigatorSetup::Unscented(settings) => match Unscented::new(start, settings) {
+                Ok(filter) => Box::new(filter),
+                // No script says so: its ranges leave out what makes no filter.
+                Err(_) => Box::new(DeadReckoning::new(start, settings.walk)),
+            },
         }
     }
 
@@ -39,6 +49,7 @@ impl NavigatorSetup {
     pub fn velocity_walk(&self) -> f64 {
         match self {
             NavigatorSetup::DeadReckoning { walk } => *walk,
+            NavigatorSetup::Unscented(settings) => settings.walk,
         }
     }
 }
