@@ -21,7 +21,7 @@ pub enum NavigatorSetup {
         /// Growth of the position error, m/s^0.5: its standard deviation an axis after t seconds is this times the root of t.
         walk: f64,
     },
-    /// [`Unscented`].
+    /// The filter of `ukf`.
     #[serde(rename = "ukf")]
     Unscented(unscented::Settings),
 }
