@@ -214,7 +214,9 @@ impl Known {
         if words <= 2 {
             slots.extend(range.clone());
         }
-        slots.extend(self.implications.range(range.clone()).iter().map(|(slot, _)| *slot));
+        for implications in [&self.implications, &ground.implications] {
+            slots.extend(implications.range(range.clone()).iter().map(|(slot, _)| *slot));
+        }
         slots.sort_unstable();
         slots.dedup();
         let moved = |slot: Slot| if range.contains(&slot) { slot - from + to } else { slot };
