@@ -8,7 +8,7 @@ use crate::hir::{Expr, ExprKind, Interval, OUTCOMES, ReportPart, TestNames, True
 use crate::source::Span;
 use crate::syntax::tree;
 use crate::types::Type;
-use albacore_program::OUTLINE_CORNERS;
+use albacore_geometry::OUTLINE_CORNERS;
 use albacore_wording::listed;
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -6,6 +6,8 @@ use crate::outline;
 use crate::plane::{Line, Point, Vector};
 use serde::{Deserialize, Serialize};
 
+/// Corners of an outline that is known in every direction from its centre: one a degree.
+pub const OUTLINE_CORNERS: u32 = 360;
 /// An area has at most this many corners.
 pub const AREA_CORNERS_MAX: usize = 1024;
 

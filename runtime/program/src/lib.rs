@@ -26,9 +26,7 @@ pub use cause::{ANSWER_WORDS, Cause, OverrideEnd};
 pub use guide::{Ends, GUIDANCE_WORDS, GuidanceLaw, Guide, Omitted, Param, ParamKind, Steering};
 pub use op::{AreaOp, Compute, ListOp, MapOp, Op, When};
 pub use setpoint::{Axis, Channel, Mark, Setpoint, SetpointKind, setpoints};
-pub use shape::{
-    AREA_CORNER_WORDS, Display, GRID_WORDS, OUTLINE_CORNERS, ROW_PLACE_WORDS, ROWS_WORDS, Shape, area_words,
-};
+pub use shape::{AREA_CORNER_WORDS, Display, GRID_WORDS, ROW_PLACE_WORDS, ROWS_WORDS, Shape, area_words};
 pub use slot::{ABSOLUTE, Addr, Slot};
 pub use statement::{Loop, ROUND_WORDS, Rounds, Statement, StatementPart};
 pub use verify::{Claim, Claims, Unit, Unsound};

@@ -59,8 +59,6 @@ pub struct Display {
 
 /// An area's words for each corner: its point and the outward normal of the edge that begins there.
 pub const AREA_CORNER_WORDS: u32 = 4;
-/// Corners of the true outline of a spill: one for each degree about its centre.
-pub const OUTLINE_CORNERS: u32 = 360;
 /// Words of an area that has room for so many corners.
 pub const fn area_words(corners: u32) -> u32 {
     1 + AREA_CORNER_WORDS * corners

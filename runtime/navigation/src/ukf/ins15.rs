@@ -121,10 +121,10 @@ impl Ins15 {
         let (gyro, force) = (Vector3::from(imu.gyro), Vector3::from(imu.accelerometer));
         let mut angles = Trigonometry::default();
         let noise = process_noise(angles.of(self.filter.state()), &self.setup, time);
-        let at_rest = at_rest(self.setup.gravity);
+        let at_rest = at_rest(self.setup.gravity).into();
         let process = |state: &SVector<f64, 15>| {
             let angles = angles.of(state);
-            state + derivative(state, angles, &gyro, &(force - angles.to_body(&at_rest))) * time
+            state + derivative(state, angles, &gyro, &(force - Vector3::from(angles.to_body(at_rest)))) * time
         };
         self.filter.predict(process, &noise)
     }
@@ -160,10 +160,10 @@ impl Ins15 {
             components: [Component::Line],
             gate: setup.gates.pressure,
         };
-        let (weight, lever) = (setup.density * setup.gravity, Vector3::from(setup.pressure_sensor));
+        let (weight, lever) = (setup.density * setup.gravity, setup.pressure_sensor);
         let mut angles = Trigonometry::default();
         self.filter.update(&measurement, |state| {
-            let depth = state[POSITION + 2] + angles.of(state).to_ned(&lever).z;
+            let depth = state[POSITION + 2] + angles.of(state).to_ned(lever)[2];
             [weight * depth].into()
         })
     }
@@ -189,11 +189,11 @@ impl Ins15 {
             gate: setup.gates.arrival,
         };
         let transponder = Vector3::from(setup.transponder);
-        let receivers = setup.receivers.map(Vector3::from);
+        let receivers = setup.receivers;
         let mut angles = Trigonometry::default();
         self.filter.update(&measurement, |state| {
             let (angles, centre) = (angles.of(state), part(state, POSITION) - transponder);
-            receivers.map(|receiver| (centre + angles.to_ned(&receiver)).norm()).into()
+            receivers.map(|receiver| (centre + Vector3::from(angles.to_ned(receiver))).norm()).into()
         })
     }
 }

@@ -368,7 +368,7 @@ impl Known {
                 for (of, range) in now.iter_mut() {
                     let known = told.iter().filter(|(other, _)| other == of);
                     let was = known.fold(before.range(ground, *of), |was, (_, range)| was.and(*range));
-                    *range = if was == *range { *range } else { whole(*range, was) };
+                    *range = if was == *range { *range } else { grown(*range, was) };
                 }
             };
             if flag.constant() != Some(0.0) {
@@ -382,7 +382,7 @@ impl Known {
 }
 
 /// Where a range grows it reaches as far as whole numbers do, or without end.
-fn whole(range: Interval, was: Interval) -> Interval {
+fn grown(range: Interval, was: Interval) -> Interval {
     let far = |x: f64| if x <= INT_MAX { INT_MAX } else { LARGEST };
     let both = range.or(was);
     let low = if both.low >= was.low { both.low } else { -far(-both.low) };

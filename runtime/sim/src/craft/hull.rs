@@ -18,7 +18,7 @@ pub use autopilot::Gains;
 pub use fossen::Fossen;
 pub use kinematics::Kinematics;
 pub use prestero::{Crossflow, Prestero};
-pub use six_dof::{Attitude, Controls, Load, Plant, Six, State, Surroundings, runge_kutta};
+pub use six_dof::{Controls, Load, Plant, Six, State, Surroundings, attitude_of, runge_kutta};
 pub use submersible::{Settings, Submersible};
 pub use surface::{Body, Surface};
 

@@ -1,7 +1,8 @@
 //! How the 15 states change in time, and what is not known of it.
 
-use super::attitude::Angles;
+use super::attitude::rates;
 use super::setup::Ins15Setup;
+use albacore_geometry::Attitude;
 use nalgebra::{SMatrix, SVector, Vector3};
 
 /// Where roll, pitch and yaw stand among the states.
@@ -28,26 +29,25 @@ pub fn at_rest(gravity: f64) -> Vector3<f64> {
 #[inline]
 pub fn derivative(
     state: &SVector<f64, 15>,
-    angles: Angles,
+    attitude: Attitude,
     gyro: &Vector3<f64>,
     force: &Vector3<f64>,
 ) -> SVector<f64, 15> {
-    let rates = gyro - part(state, GYRO_BIAS);
+    let turn = gyro - part(state, GYRO_BIAS);
     let velocity = part(state, VELOCITY);
-    let attitude = angles.rates() * rates;
-    let position = angles.to_ned(&velocity);
-    let acceleration = force - rates.cross(&velocity) - part(state, ACCELEROMETER_BIAS);
+    let position = attitude.to_ned(velocity.into()).into();
+    let acceleration = force - turn.cross(&velocity) - part(state, ACCELEROMETER_BIAS);
     let still = Vector3::zeros();
-    let parts = [attitude, still, position, acceleration, still];
+    let parts = [rates(attitude) * turn, still, position, acceleration, still];
     SVector::from_fn(|i, _| parts[i / 3][i % 3])
 }
 
 /// Eq. (16): the covariance of what a step of so many seconds adds. `J1 (sigma_u^2 I) J1'` is `sigma_u^2 I`.
 #[inline]
-pub fn process_noise(angles: Angles, setup: &Ins15Setup, time: f64) -> SMatrix<f64, 15, 15> {
+pub fn process_noise(attitude: Attitude, setup: &Ins15Setup, time: f64) -> SMatrix<f64, 15, 15> {
     let square = |x: f64| x * x;
     let mut noise = SMatrix::<f64, 15, 15>::zeros();
-    let rates = angles.rates() * (setup.gyro_sigma * time);
+    let rates = rates(attitude) * (setup.gyro_sigma * time);
     noise.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&(rates * rates.transpose()));
     for axis in 0..3 {
         noise[(POSITION + axis, POSITION + axis)] = square(setup.velocity_sigma * time);

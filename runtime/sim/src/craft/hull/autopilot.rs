@@ -6,7 +6,7 @@
 //! fall as one over speed.
 
 use super::actuators::ActuatorLimits;
-use super::six_dof::{Attitude, Controls, Load, Plant};
+use super::six_dof::{Controls, Load, Plant, attitude_of};
 use albacore_geometry::math::{PI, sin};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::{Command, TICK_S, Vertical};
@@ -258,7 +258,7 @@ pub(crate) fn speed_possible<P: Plant>(plant: &P, rpm: f64) -> f64 {
 /// The turns a minute for each m/s, straight and level: where thrust and drag balance. Both grow as a square, so that the
 /// quotient is hardly another at another speed.
 fn rpm_per_speed<P: Plant>(plant: &P) -> f64 {
-    let level = Attitude::of(&Vector6::zeros());
+    let level = attitude_of(&Vector6::zeros());
     let ahead = Vector6::new(MAP_SPEED, 0.0, 0.0, 0.0, 0.0, 0.0);
     let surge = |rpm: f64| {
         let controls = Controls { rpm, ..Controls::default() };

@@ -8,10 +8,10 @@ mod cross_flow;
 
 use super::GRAVITY;
 use super::mass::InverseMass;
-use super::six_dof::{Attitude, Controls, Load, Plant, Six};
+use super::six_dof::{Controls, Load, Plant, Six};
 use super::surface::Body;
-use albacore_geometry::Vector;
 use albacore_geometry::math::{PI, atan2, exp, ln};
+use albacore_geometry::{Attitude, Vector};
 use cross_flow::CrossFlow;
 use nalgebra::{Matrix6, Vector3, Vector6};
 

@@ -5,11 +5,11 @@
 //! propeller and its buoyancy take it from there.
 
 use super::autopilot::PITCH_MAX;
-use super::six_dof::{Attitude, Six, State};
+use super::six_dof::{Six, State, attitude_of};
 use albacore_geometry::math::{PI, sin_cos};
 use albacore_geometry::{Heading, Point, wrap_angle};
 use albacore_vehicle::{Command, TICK_S, Vertical};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 
 /// How fast a hull turns upon the bottom, rad/s.
 const PIVOT_RATE: f64 = 10.0 * PI / 180.0;
@@ -39,10 +39,10 @@ impl Grounding {
             let (north, east) = (before[0], before[1]);
             let down = down.min(water_depth(Point::new(north, east)));
             state.pose = Vector6::new(north, east, down, roll, pitch, yaw);
-            let attitude = Attitude::of(&state.pose);
+            let attitude = attitude_of(&state.pose);
             let [u, v, w, p, q, r] = state.velocity.into();
-            let sinking = attitude.to_ned(Vector3::new(u, v, w)).z;
-            let [u, v, w] = attitude.to_body(Vector3::new(0.0, 0.0, sinking.min(0.0))).into();
+            let sinking = attitude.to_ned([u, v, w])[2];
+            let [u, v, w] = attitude.to_body([0.0, 0.0, sinking.min(0.0)]);
             state.velocity = Vector6::new(u, v, w, p, q, r);
             return Some(Grounding { clear_s: 0.0 });
         }
@@ -91,11 +91,11 @@ pub fn pivot(state: &mut State, from: &Six, heading: Option<Heading>, climbs: bo
     };
     let [_, _, _, roll, pitch, yaw] = (*from).into();
     let [u, v, w, ..]: [f64; 6] = state.velocity.into();
-    let over_ground = Attitude::of(&state.pose).to_ned(Vector3::new(u, v, w));
+    let over_ground = attitude_of(&state.pose).to_ned([u, v, w]);
     let heading = heading.map_or(yaw, Heading::radians);
     let nose_up = if climbs { PITCH_MAX } else { 0.0 };
     (state.pose[3], state.pose[4]) = (turned(roll, 0.0), turned(pitch, nose_up));
     state.pose[5] = wrap_angle(turned(yaw, heading));
-    let [u, v, w] = Attitude::of(&state.pose).to_body(over_ground).into();
+    let [u, v, w] = attitude_of(&state.pose).to_body(over_ground);
     state.velocity = Vector6::new(u, v, w, 0.0, 0.0, 0.0);
 }

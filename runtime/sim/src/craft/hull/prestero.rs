@@ -12,11 +12,11 @@
 //! - In yaw and in pitch it is unstable: left alone it does not run straight.
 
 use super::mass::InverseMass;
-use super::six_dof::{Attitude, Controls, Load, Plant, Six};
+use super::six_dof::{Controls, Load, Plant, Six};
 use super::surface::Body;
-use albacore_geometry::Vector;
 use albacore_geometry::math::TAU;
-use nalgebra::{Matrix6, Vector3, Vector6};
+use albacore_geometry::{Attitude, Vector};
+use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// Weight and buoyancy, N; mass, kg.
@@ -144,7 +144,7 @@ impl Plant for Prestero {
         load: Load,
     ) -> Six {
         let [_, _, _, p, q, r] = (*velocity).into();
-        let water = attitude.to_body(Vector3::new(current.north, current.east, 0.0));
+        let water = attitude.to_body([current.north, current.east, 0.0]);
         let (u, v, w) = (velocity[0] - water[0], velocity[1] - water[1], velocity[2] - water[2]);
 
         // Down at the origin, and down at the centre of gravity.

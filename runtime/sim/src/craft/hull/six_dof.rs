@@ -5,9 +5,8 @@
 //! down.
 
 use super::surface::Surface;
-use albacore_geometry::Vector;
-use albacore_geometry::math::sin_cos;
-use nalgebra::{Vector3, Vector6};
+use albacore_geometry::{Attitude, Vector};
+use nalgebra::Vector6;
 
 /// Six numbers of a body: three of translation, three of rotation.
 pub type Six = Vector6<f64>;
@@ -65,79 +64,27 @@ pub trait Plant {
     ) -> Six;
 }
 
-/// Sines and cosines of the Euler angles.
-#[derive(Clone, Copy, Debug)]
-pub struct Attitude {
-    /// Of roll.
-    pub sin_roll: f64,
-    /// Of roll.
-    pub cos_roll: f64,
-    /// Of pitch.
-    pub sin_pitch: f64,
-    /// Of pitch.
-    pub cos_pitch: f64,
-    /// Of yaw.
-    pub sin_yaw: f64,
-    /// Of yaw.
-    pub cos_yaw: f64,
+/// The attitude of a pose.
+#[inline]
+pub fn attitude_of(pose: &Six) -> Attitude {
+    Attitude::of(pose[3], pose[4], pose[5])
 }
 
-/// Nose up or down by a right angle, roll and yaw are one: the cosine of pitch is held off 0 by this.
-const COS_PITCH_MIN: f64 = 1e-6;
-
-impl Attitude {
-    /// Of a pose.
-    #[inline]
-    pub fn of(pose: &Six) -> Self {
-        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch), (sin_yaw, cos_yaw)) =
-            (sin_cos(pose[3]), sin_cos(pose[4]), sin_cos(pose[5]));
-        Attitude { sin_roll, cos_roll, sin_pitch, cos_pitch, sin_yaw, cos_yaw }
-    }
-
-    /// A vector of the body in the frame of north, east and down.
-    #[inline]
-    pub fn to_ned(self, v: Vector3<f64>) -> Vector3<f64> {
-        // Roll, then pitch, then yaw.
-        let starboard = self.cos_roll * v.y - self.sin_roll * v.z;
-        let down = self.sin_roll * v.y + self.cos_roll * v.z;
-        let ahead = self.cos_pitch * v.x + self.sin_pitch * down;
-        Vector3::new(
-            self.cos_yaw * ahead - self.sin_yaw * starboard,
-            self.sin_yaw * ahead + self.cos_yaw * starboard,
-            self.cos_pitch * down - self.sin_pitch * v.x,
-        )
-    }
-
-    /// A vector of north, east and down in the frame of the body.
-    #[inline]
-    pub fn to_body(self, v: Vector3<f64>) -> Vector3<f64> {
-        let ahead = self.cos_yaw * v.x + self.sin_yaw * v.y;
-        let starboard = self.cos_yaw * v.y - self.sin_yaw * v.x;
-        let below = self.sin_pitch * ahead + self.cos_pitch * v.z;
-        Vector3::new(
-            self.cos_pitch * ahead - self.sin_pitch * v.z,
-            self.cos_roll * starboard + self.sin_roll * below,
-            self.cos_roll * below - self.sin_roll * starboard,
-        )
-    }
-
-    /// How fast the pose changes: (2) of the 2016 paper, Fossen's J.
-    #[inline]
-    fn rates(self, velocity: &Six) -> Six {
-        let [u, v, w, p, q, r] = (*velocity).into();
-        let over_ground = self.to_ned(Vector3::new(u, v, w));
-        let cos_pitch = if self.cos_pitch.abs() < COS_PITCH_MIN { COS_PITCH_MIN } else { self.cos_pitch };
-        let yaw = (self.sin_roll * q + self.cos_roll * r) / cos_pitch;
-        let (roll, pitch) = (p + self.sin_pitch * yaw, self.cos_roll * q - self.sin_roll * r);
-        Vector6::new(over_ground.x, over_ground.y, over_ground.z, roll, pitch, yaw)
-    }
+/// How fast the pose changes: (2) of the 2016 paper, Fossen's J.
+#[inline]
+fn rates(attitude: Attitude, velocity: &Six) -> Six {
+    let [u, v, w, p, q, r] = (*velocity).into();
+    let [north, east, down] = attitude.to_ned([u, v, w]);
+    let yaw = (attitude.sin_roll * q + attitude.cos_roll * r) / attitude.divisor();
+    let (roll, pitch) = (p + attitude.sin_pitch * yaw, attitude.cos_roll * q - attitude.sin_roll * r);
+    Vector6::new(north, east, down, roll, pitch, yaw)
 }
 
 /// The rate of change of a state.
 #[inline]
 fn derivative<P: Plant>(plant: &P, state: &State, controls: &Controls, around: &Surroundings) -> State {
-    let attitude = Attitude::of(&state.pose);
-    let pose = attitude.rates(&state.velocity);
+    let attitude = attitude_of(&state.pose);
+    let pose = rates(attitude, &state.velocity);
     let lost = around.surface.as_ref().map_or(Load::default(), |surface| surface.load(&attitude, state.pose[2], &pose));
     let load = Load { down: lost.down + around.buoyancy_loss, ..lost };
     State { pose, velocity: plant.acceleration(&attitude, &state.velocity, controls, around.current, load) }
@@ -173,22 +120,6 @@ fn moved(state: &State, rate: &State, time: f64) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_frames_turn_into_one_another() {
-        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.3, -0.4, 2.0));
-        let v = Vector3::new(1.0, -2.0, 3.0);
-        let back = attitude.to_body(attitude.to_ned(v));
-        assert!((back - v).amax() < 1e-14, "{back:?}");
-    }
-
-    #[test]
-    fn a_nose_that_points_up_climbs_and_one_that_points_east_goes_there() {
-        let nose =
-            |pitch: f64, yaw: f64| Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, pitch, yaw)).to_ned(Vector3::x());
-        assert!((nose(0.1, 0.0).z + 0.1).abs() < 1e-3, "down is positive");
-        assert!((nose(0.0, std::f64::consts::FRAC_PI_2).y - 1.0).abs() < 1e-15);
-    }
 
     /// A body that nothing accelerates, but that turns: the frame of the body turns with it.
     struct Free;

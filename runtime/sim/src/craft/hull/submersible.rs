@@ -3,12 +3,12 @@
 use super::actuators::{ActuatorLimits, Actuators};
 use super::autopilot::{Autopilot, Gains, Sensed};
 use super::grounding::{Grounding, Intent, pivot};
-use super::six_dof::{Attitude, Controls, Plant, State, Surroundings, runge_kutta};
+use super::six_dof::{Controls, Plant, State, Surroundings, attitude_of, runge_kutta};
 use super::surface::{Body, Surface};
 use super::{Diverged, Motion, StartPose};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 
 /// What is set for a submersible, whatever its plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl<P: Plant> Submersible<P> {
     pub fn new(plant: P, body: &Body, settings: &Settings, berth: &StartPose) -> Self {
         let StartPose { position, heading, depth, flow } = *berth;
         let pose = Vector6::new(position.north, position.east, depth, 0.0, 0.0, wrap_angle(heading.radians()));
-        let [u, v, w] = Attitude::of(&pose).to_body(Vector3::new(flow.north, flow.east, 0.0)).into();
+        let [u, v, w] = attitude_of(&pose).to_body([flow.north, flow.east, 0.0]);
         let state = State { pose, velocity: Vector6::new(u, v, w, 0.0, 0.0, 0.0) };
         let motion = berth.motion();
         Submersible {
@@ -135,7 +135,7 @@ impl<P: Plant> Submersible<P> {
     fn observe(&mut self, before: Point, flow: Vector) {
         let [north, east, depth, roll, pitch, yaw] = self.state.pose.into();
         let position = Point::new(north, east);
-        let ahead = Attitude::of(&self.state.pose).to_body(Vector3::new(flow.north, flow.east, 0.0)).x;
+        let [ahead, ..] = attitude_of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
         self.motion = Motion {
             position,
             heading: Heading::from_radians(yaw),

@@ -1,6 +1,7 @@
 //! The surface, as a hull feels it that comes out of the water.
 
-use super::six_dof::{Attitude, Load, Six};
+use super::six_dof::{Load, Six};
+use albacore_geometry::Attitude;
 
 /// Parts of the hull that come out one by one, along its length.
 const PARTS: [f64; 3] = [-1.0 / 3.0, 0.0, 1.0 / 3.0];
@@ -61,13 +62,14 @@ impl Surface {
 
 #[cfg(test)]
 mod tests {
+    use super::super::six_dof::attitude_of;
     use super::*;
     use nalgebra::Vector6;
 
     const SURFACE: Surface = Surface { length: 1.6, stiffness: 500.0, damping: 100.0 };
 
     fn load(depth: f64, pitch: f64, sinking: f64) -> Load {
-        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, depth, 0.0, pitch, 0.0));
+        let attitude = attitude_of(&Vector6::new(0.0, 0.0, depth, 0.0, pitch, 0.0));
         SURFACE.load(&attitude, depth, &Vector6::new(0.0, 0.0, sinking, 0.0, 0.0, 0.0))
     }
 

@@ -2,11 +2,11 @@
 
 use crate::noise::Noise;
 use albacore_geometry::math::{TAU, cos, degrees, sin};
-use albacore_geometry::{Heading, Vector};
+use albacore_geometry::{Heading, OUTLINE_CORNERS, Vector};
 use serde::Deserialize;
 
 /// Directions in which the distance is known: each degree, as in Eq. 23.
-const DIRECTIONS: usize = 360;
+pub(super) const DIRECTIONS: usize = OUTLINE_CORNERS as usize;
 /// An outline comes no nearer to its centre than this share of its radius: one that was drawn so is drawn anew.
 const NEAREST: f64 = 0.1;
 /// After so many draws in vain the amplitudes are halved.

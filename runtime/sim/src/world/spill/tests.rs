@@ -1,3 +1,4 @@
+use super::outline::DIRECTIONS;
 use super::*;
 use albacore_geometry::math::PI;
 
@@ -50,7 +51,7 @@ fn an_ellipse_has_its_axes_and_its_area() {
 #[test]
 fn fourier_orders_deform_a_circle() {
     let all: Vec<Vec<f64>> = (1..=300).map(|seed| of(&spill(fourier()), seed).radii.0).collect();
-    let count = (all.len() * DIRECTIONS_TESTED) as f64;
+    let count = (all.len() * DIRECTIONS) as f64;
     let radii = || all.iter().flatten();
     let mean = radii().sum::<f64>() / count;
     let variance = radii().map(|r| (r - mean) * (r - mean)).sum::<f64>() / count;
@@ -63,8 +64,6 @@ fn fourier_orders_deform_a_circle() {
     let wild = Outline::Fourier { radius: 50.0, order: 40, amplitude: 1.0 };
     assert!(of(&spill(wild), 1).outline(0.0).is_some());
 }
-
-const DIRECTIONS_TESTED: usize = 360;
 
 #[test]
 fn the_outline_is_where_half_of_the_chemical_is() {

@@ -1,7 +1,7 @@
 //! The plant's numbers, and what physics asks of it whatever its numbers are.
 
 use super::*;
-use crate::craft::hull::six_dof::{State, Surroundings, runge_kutta};
+use crate::craft::hull::six_dof::{State, Surroundings, attitude_of, runge_kutta};
 use albacore_geometry::math::{degrees, radians};
 
 const NEUTRAL: [Controls; 3] = [Controls { rudder: 0.0, stern: 0.0, rpm: 0.0 }; 3];
@@ -57,7 +57,7 @@ fn energy(plant: &Fossen, state: &State) -> f64 {
         + (plant.inertia[1] + a[4]) * q * q
         + (plant.inertia[2] + a[5]) * r * r
         + 2.0 * plant.moment * (u * q - v * p);
-    let attitude = Attitude::of(&state.pose);
+    let attitude = attitude_of(&state.pose);
     0.5 * moving + METACENTRE * plant.weight() * (1.0 - attitude.cos_pitch * attitude.cos_roll)
 }
 
@@ -141,9 +141,9 @@ fn a_current_carries_a_level_hull_as_a_whole() {
     // Level and turning about the vertical alone, the published turning of the current by yaw alone is exact: the hull is
     // accelerated as in still water, seen from a frame that moves with the water. With roll and pitch it is not.
     let plant = Fossen::new();
-    let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.7));
+    let attitude = attitude_of(&Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.7));
     let (current, r) = (Vector::new(0.3, -0.4), 0.2);
-    let [ahead, right, _] = attitude.to_body(Vector3::new(current.north, current.east, 0.0)).into();
+    let [ahead, right, _] = attitude.to_body([current.north, current.east, 0.0]);
     let controls = Controls { rudder: 0.1, stern: -0.1, rpm: 1200.0 };
     let still = plant.acceleration(
         &attitude,

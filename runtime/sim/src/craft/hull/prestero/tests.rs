@@ -1,7 +1,7 @@
 //! What is known of the published plant, and what physics asks of it.
 
 use super::*;
-use crate::craft::hull::six_dof::{State, Surroundings, runge_kutta};
+use crate::craft::hull::six_dof::{State, Surroundings, attitude_of, runge_kutta};
 use albacore_geometry::math::{asin, degrees, radians};
 
 fn run(plant: &Prestero, start: State, controls: Controls, around: &Surroundings, seconds: f64) -> State {
@@ -44,8 +44,8 @@ fn its_buoyancy_asks_for_the_trim_of_others() {
     // Level flight at 1.54 m/s: heave and pitch balance for one angle of pitch and one of the stern plane.
     let plant = Prestero::default();
     let unbalanced = |pitch: f64, stern: f64| {
-        let attitude = Attitude::of(&Vector6::new(0.0, 0.0, 0.0, 0.0, pitch, 0.0));
-        let [u, v, w] = attitude.to_body(Vector3::new(1.54, 0.0, 0.0)).into();
+        let attitude = attitude_of(&Vector6::new(0.0, 0.0, 0.0, 0.0, pitch, 0.0));
+        let [u, v, w] = attitude.to_body([1.54, 0.0, 0.0]);
         let controls = Controls { stern, ..CRUISE };
         let a = plant.acceleration(
             &attitude,
@@ -75,7 +75,7 @@ fn its_buoyancy_asks_for_the_trim_of_others() {
 fn left_alone_it_does_not_run_straight() {
     // Sway and yaw about a straight run at 1.54 m/s, linearised: one of the two grows, e-fold in a second.
     let plant = Prestero::default().neutral();
-    let level = Attitude::of(&Vector6::zeros());
+    let level = attitude_of(&Vector6::zeros());
     let rates = |v: f64, r: f64| {
         let a = plant.acceleration(
             &level,
@@ -99,7 +99,7 @@ fn it_holds_its_speed_at_1500_rpm() {
     let end = run(&Prestero::default().neutral(), ahead(1.0), CRUISE, &Surroundings::default(), 5.0);
     assert!(end.velocity[0] > 1.0);
     let a = Prestero::default().neutral().acceleration(
-        &Attitude::of(&Vector6::zeros()),
+        &attitude_of(&Vector6::zeros()),
         &ahead(1.543).velocity,
         &CRUISE,
         Vector::ZERO,
@@ -162,7 +162,7 @@ fn energy(state: &State) -> f64 {
         + (INERTIA[2] - N_RDOT) * r * r
         + 2.0 * MASS * Z_G * (u * q - v * p)
         - 2.0 * (Y_RDOT * v * r + Z_QDOT * w * q);
-    let attitude = Attitude::of(&state.pose);
+    let attitude = attitude_of(&state.pose);
     0.5 * moving + Z_G * WEIGHT * (1.0 - attitude.cos_pitch * attitude.cos_roll)
 }
 
