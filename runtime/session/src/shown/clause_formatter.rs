@@ -3,6 +3,7 @@
 use super::{ShownClause, ValueSource};
 use albacore_geometry::{Point, TangentFrame, Vector};
 use albacore_lang::{ScenarioClause, ScenarioValue};
+use albacore_program::seen::one_line;
 use albacore_program::{AREA_CORNER_WORDS, Display, Shape, number};
 use albacore_sim::Grid;
 
@@ -34,7 +35,7 @@ impl ClauseFormatter<'_> {
 
     fn value(&self, value: &ScenarioValue) -> Option<String> {
         match value {
-            ScenarioValue::Text(text) => Some(format!("\"{text}\"")),
+            ScenarioValue::Text(text) => Some(format!("\"{}\"", one_line(text))),
             ScenarioValue::Words(slot, shape) => {
                 let words = self.words.get(*slot as usize..).unwrap_or(&[]);
                 Some(self.text(shape, words.get(..shape.words() as usize).unwrap_or(words)))
