@@ -275,7 +275,7 @@ impl Unit {
 pub const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// The units that every script knows, by the word that names them.
-pub const UNITS: [(&str, Dimension, f64); 26] = [
+pub const UNITS: [(&str, Dimension, f64); 27] = [
     ("%", Dimension::NONE, 0.01),
     ("m", Dimension::LENGTH, 1.0),
     ("mm", Dimension::LENGTH, 0.001),
@@ -285,6 +285,7 @@ pub const UNITS: [(&str, Dimension, f64); 26] = [
     ("ft", Dimension::LENGTH, 0.3048),
     ("s", Dimension::TIME, 1.0),
     ("ms", Dimension::TIME, 0.001),
+    ("us", Dimension::TIME, 1e-6),
     ("min", Dimension::TIME, 60.0),
     ("h", Dimension::TIME, 3600.0),
     ("deg", Dimension::ANGLE, DEGREE),

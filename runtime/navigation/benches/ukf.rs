@@ -60,7 +60,7 @@ fn steps(aiding: &Aiding) -> Vec<f64> {
         accelerometer_bias: [0.1; 3],
     };
     let mut filter = Ins15::new(Ins15Setup::default(), &start, &sigma).unwrap();
-    let imu = Imu { gyro: [0.001, -0.002, 0.0], accelerometer: [0.0, 0.0, -9.81] };
+    let imu = Imu { gyro: Some([0.001, -0.002, 0.0]), accelerometer: Some([0.0, 0.0, -9.81]) };
     stretches(10, 200, || {
         filter.predict(black_box(&imu), STEP_S).unwrap();
         black_box(filter.aid(black_box(aiding)));

@@ -1,5 +1,7 @@
 //! What makes a position of what was sensed.
 
+use crate::navigators::Inertial;
+use crate::ukf::Aiding;
 use albacore_geometry::{Heading, Point, Vector};
 use std::fmt::Debug;
 
@@ -11,8 +13,26 @@ pub trait Navigator: Debug + Send + Sync {
     /// A fix has come. Whether it changed the estimate.
     fn update(&mut self, fix: &Fix) -> bool;
 
+    /// Takes what an instrument told as it measured it. Those that reckon from speed and compass have no use for it.
+    fn sense(&mut self, _: &Raw) {}
+
     /// Where the vehicle is, as far as is known.
     fn estimate(&self) -> Estimate;
+
+    /// All that it knows, where it is an inertial one.
+    fn inertial(&self) -> Option<&Inertial> {
+        None
+    }
+
+    /// The same, to be told more.
+    fn inertial_mut(&mut self) -> Option<&mut Inertial> {
+        None
+    }
+
+    /// What it has noticed of its instruments since this was last asked.
+    fn take_notices(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// A copy, with all that it knows.
     fn boxed(&self) -> Box<dyn Navigator>;
@@ -31,6 +51,22 @@ pub struct Sensed {
     pub ground_velocity: Vector,
     /// Where the compass says that its nose points.
     pub heading: Heading,
+}
+
+/// What instruments told as they measured it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Raw {
+    /// The inertial unit, of some seconds up to now.
+    Inertial {
+        /// Rates of turn, rad/s, body; none: nothing came.
+        gyro: Option<[f64; 3]>,
+        /// Specific force, m/s2, body; none: nothing came.
+        accelerometer: Option<[f64; 3]>,
+        /// s.
+        time: f64,
+    },
+    /// What aids it, of now.
+    Aiding(Aiding),
 }
 
 /// A position that was measured.

@@ -1,14 +1,17 @@
 //! The table of navigators: a module for each, and how scenarios name them.
 
 mod dead_reckoning;
+mod inertial;
 mod reported;
 mod unscented;
 
 pub use dead_reckoning::DeadReckoning;
+pub use inertial::{Inertial, Nis, Settings as InertialSettings};
 pub use reported::Reported;
 pub use unscented::Unscented;
 
 use crate::navigator::Navigator;
+use crate::ukf::{Ins15Setup, InsState};
 use albacore_geometry::Point;
 use serde::Deserialize;
 
@@ -24,6 +27,21 @@ pub enum NavigatorSetup {
     /// The filter of `ukf`.
     #[serde(rename = "ukf")]
     Unscented(unscented::Settings),
+    /// [`Inertial`].
+    Inertial(inertial::Settings),
+}
+
+/// Where a navigator begins, and with which instruments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Departure {
+    /// The place, for one that knows it exactly.
+    pub position: Point,
+    /// The start as an inertial one knows it, the standard deviations of its errors, and its instruments.
+    pub state: InsState,
+    /// See there.
+    pub sigma: InsState,
+    /// See there.
+    pub setup: Ins15Setup,
 }
 
 impl Default for NavigatorSetup {
@@ -33,15 +51,29 @@ impl Default for NavigatorSetup {
 }
 
 impl NavigatorSetup {
-    /// One that begins at a known point.
-    pub fn begin(&self, start: Point) -> Box<dyn Navigator> {
+    /// One that begins there.
+    pub fn begin(&self, departure: &Departure) -> Box<dyn Navigator> {
+        let start = departure.position;
+        // No script makes a filter that cannot be: ranges leave it out.
+        let without = |walk: f64| Box::new(DeadReckoning::new(start, walk));
         match self {
-            NavigatorSetup::DeadReckoning { walk } => Box::new(DeadReckoning::new(start, *walk)),
+            NavigatorSetup::DeadReckoning { walk } => without(*walk),
             NavigatorSetup::Unscented(settings) => match Unscented::new(start, settings) {
                 Ok(filter) => Box::new(filter),
-                // No script says so: its ranges leave out what makes no filter.
-                Err(_) => Box::new(DeadReckoning::new(start, settings.walk)),
+                Err(_) => without(settings.walk),
             },
+            NavigatorSetup::Inertial(settings) => match Inertial::new(departure, settings) {
+                Ok(filter) => Box::new(filter),
+                Err(_) => without(0.0),
+            },
+        }
+    }
+
+    /// What an inertial one is told, where it is one.
+    pub fn inertial(&self) -> Option<&InertialSettings> {
+        match self {
+            NavigatorSetup::Inertial(settings) => Some(settings),
+            _ => None,
         }
     }
 
@@ -50,6 +82,8 @@ impl NavigatorSetup {
         match self {
             NavigatorSetup::DeadReckoning { walk } => *walk,
             NavigatorSetup::Unscented(settings) => settings.walk,
+            // It is given no velocity but that of its instruments.
+            NavigatorSetup::Inertial(_) => 0.0,
         }
     }
 }

@@ -63,7 +63,7 @@ fn zigzag(kind: Kind) -> Vec<f64> {
             let heading = Heading::from_degrees(if odd { 120.0 } else { 30.0 });
             let vertical = Vertical::Depth(if odd { 8.0 } else { 5.0 });
             let command = Command::new(heading, 2.0, vertical);
-            assert!(hull.step(tick, black_box(Some(&command)), flow, |_| 20.0).is_ok());
+            assert!(hull.step(tick, black_box(Some(&command)), flow, |_| 20.0, None).is_ok());
             tick += 1;
         }
     })

@@ -104,7 +104,8 @@ impl Scenario {
         }
         world::check(self, &mut objections);
         setup::check(self, &mut objections);
-        self.instruments.check(&mut objections);
+        let has_transponder = self.environment.transponder.is_some();
+        self.instruments.check(has_transponder, self.vehicle.hull.steps(), &mut objections);
         payload::check(self, &mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }

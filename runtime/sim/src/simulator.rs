@@ -1,10 +1,10 @@
 //! The simulator: one world, one vehicle in it, behind the port.
 
 use crate::craft::fault::Faults;
-use crate::craft::hull::Hull;
+use crate::craft::hull::{Hull, StartPose, Track};
 use crate::craft::incidents::Incidents;
 use crate::craft::payload::PayloadBay;
-use crate::craft::sensors::{Instruments, Surroundings};
+use crate::craft::sensors::{Instruments, Step, Surroundings};
 use crate::scenario::{Scenario, ScenarioError};
 use crate::world::World;
 use crate::world::survey::Survey;
@@ -29,6 +29,8 @@ pub struct Simulator {
     measurements: Vec<Measurement>,
     world: World,
     vehicle: Hull,
+    /// How the hull moved within the last tick, where an inertial unit feels it.
+    track: Option<Track>,
     instruments: Instruments,
     endurance: f64,
     /// The battery is empty.
@@ -61,11 +63,15 @@ impl Simulator {
         let vehicle = scenario.vehicle.placed(seed);
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
+        let flow = world.flow(start, altitude, 0.0);
+        let berth = StartPose { position: start, heading: vehicle.heading, depth: vehicle.depth, flow };
+        let takes_raw = scenario.instruments.inertial().is_some();
         let mut simulator = Simulator {
             measurements: scenario.measurements(),
-            vehicle: Hull::new(&vehicle, world.flow(start, altitude, 0.0), seed),
+            vehicle: Hull::new(&vehicle, flow, seed),
+            track: takes_raw.then(Track::default),
+            instruments: Instruments::new(&scenario.instruments, &scenario.limits(), &world, &berth, seed),
             world,
-            instruments: Instruments::new(&scenario.instruments, &scenario.limits(), start, seed),
             endurance: vehicle.endurance,
             spent: false,
             front_seat: FrontSeat::new(
@@ -83,7 +89,7 @@ impl Simulator {
             truth: Truth::default(),
             intake: (start, 0.0),
             incidents: Incidents::new(&scenario.environment.no_go),
-            faults: Faults::new(&scenario.faults, seed),
+            faults: Faults::new(&scenario.faults, takes_raw, seed),
             payload: PayloadBay::new(&scenario.payloads, seed),
             tick: None,
         };
@@ -153,11 +159,12 @@ impl Simulator {
         self.vehicle.flood(ailing.water - if self.gives_up() { DROP_WEIGHT_KG } else { 0.0 });
         let weighed = command.map(|command| self.by_weight(&command, tick));
         self.vehicle
-            .step(tick, weighed.as_ref(), flow, |p| self.world.water_depth(p))
+            .step(tick, weighed.as_ref(), flow, |p| self.world.water_depth(p), self.track.as_mut())
             .map_err(|why| VehicleError(why.to_string()))?;
         let motion = self.vehicle.motion();
         let altitude = self.world.water_depth(motion.position) - motion.depth;
-        self.instruments.step(tick, motion, altitude);
+        let step = Step { tick, motion, altitude, track: self.track.as_ref() };
+        self.instruments.step(&step, &self.world, &mut self.faults);
         Ok(())
     }
 
@@ -372,6 +379,7 @@ impl Vehicle for Simulator {
     fn notices(&mut self) -> Vec<String> {
         let mut notices = self.faults.take_notices();
         notices.extend(self.watch.take_notices());
+        notices.extend(self.instruments.take_notices());
         notices.append(&mut self.incidents.take());
         notices
     }

@@ -8,9 +8,11 @@ pub(crate) mod front;
 pub(crate) mod plume;
 pub(crate) mod recorded;
 pub(crate) mod simulated;
+pub(crate) mod sound;
 pub(crate) mod spill;
 pub(crate) mod stratification;
 pub(crate) mod survey;
+pub(crate) mod transponder;
 pub(crate) mod water;
 
 use crate::scenario::{Scenario, ScenarioIssues};
@@ -23,6 +25,7 @@ use crate::world::simulated::Simulated;
 use crate::world::spill::{Slick, Spill};
 use crate::world::stratification::Stratification;
 use crate::world::survey::Survey;
+use crate::world::transponder::Transponder;
 use crate::world::water::{Flow, MeanFlow, Sea, Tide, Turning, UpperFlow, Waves};
 use albacore_geometry::{Area, Point, Vector};
 use albacore_vehicle::TICK_S;
@@ -45,6 +48,8 @@ pub struct Environment {
     pub no_go: Vec<NoGo>,
     /// A beacon; none: there is none to be heard.
     pub beacon: Option<Beacon>,
+    /// A transponder; none: there is none to be heard.
+    pub transponder: Option<Transponder>,
     /// How the chemical spreads; none: the chemical sensor reads only its noise.
     pub plume: Option<Plume>,
     /// What releases chemical.
@@ -100,6 +105,7 @@ clauses! {
     "pit" Pit(Pit) => |of, pit| of.bottom.pits.push(pit);
     "no_go" NoGo(NoGo) => |of, zone| of.no_go.push(zone);
     "beacon" Beacon(Beacon) => |of, beacon| of.beacon = Some(beacon);
+    "transponder" Transponder(Transponder) => |of, transponder| of.transponder = Some(transponder);
     "plume" Plume(Plume) => |of, plume| of.plume = Some(plume);
     "source" Source(Source) => |of, source| of.sources.push(source);
     "leak" Leak(Leak) => |of, leak| of.sources.push(leak.into());
@@ -136,6 +142,7 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
     stratification::check(scenario, objections);
     bottom::check(scenario, objections);
     beacon::check(scenario, objections);
+    transponder::check(scenario, objections);
     spill::check(scenario, objections);
     // An area that was read from a file has not met its constructor.
     if let Some(Err(error)) = scenario.environment.region.as_ref().map(|region| Area::polygon(region.corners())) {
@@ -166,6 +173,7 @@ pub struct World {
     stratification: Stratification,
     bottom: Seabed,
     beacon: Option<Beacon>,
+    transponder: Option<Transponder>,
     slicks: Vec<Slick>,
 }
 
@@ -188,10 +196,11 @@ impl World {
         let (upper, bottom) = (scenario.environment.flow.upper.clone(), scenario.environment.bottom.clone());
         let depth = bottom.depth_at(scenario.vehicle.start);
         let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
-        let (stratification, beacon) =
-            (scenario.environment.stratification.clone(), scenario.environment.beacon.clone());
+        let stratification = scenario.environment.stratification.clone();
+        let (beacon, transponder) =
+            (scenario.environment.beacon.clone(), scenario.environment.transponder.clone());
         let slicks = Slick::all(&scenario.environment.spills, seed);
-        World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon, slicks }
+        World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon, transponder, slicks }
     }
 
     /// Why the world cannot go on to a tick, if it cannot.
@@ -241,6 +250,11 @@ impl World {
     /// Where its beacon is at a time, s of the run, if it has one.
     pub fn beacon(&self, time: f64) -> Option<Point> {
         self.beacon.as_ref().map(|beacon| beacon.position(time))
+    }
+
+    /// Its transponder, if it has one.
+    pub fn transponder(&self) -> Option<&Transponder> {
+        self.transponder.as_ref()
     }
 
     /// The water's depth, m.

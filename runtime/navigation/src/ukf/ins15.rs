@@ -13,7 +13,7 @@ pub use setup::{Ins15Gates, Ins15Setup};
 use super::component::Component;
 use super::filter::{Innovation, Measurement, Ukf, UkfError};
 use attitude::Trigonometry;
-use kinematics::{ATTITUDE, POSITION, VELOCITY, at_rest, derivative, part, process_noise};
+use kinematics::{ATTITUDE, POSITION, StepSigmas, VELOCITY, at_rest, derivative, part, process_noise};
 use nalgebra::{SMatrix, SVector, Vector3};
 
 /// The 15 states, Eq. (15); also the standard deviations of their errors.
@@ -31,13 +31,14 @@ pub struct InsState {
     pub accelerometer_bias: [f64; 3],
 }
 
-/// A sample of the inertial unit, Eq. (4) and (6).
+/// A sample of the inertial unit, Eq. (4) and (6). Without one of its parts the filter goes on as if the vehicle did not turn, or kept its
+/// velocity in the body's frame, and grows less sure: by the `unmeasured` ones of [`Ins15Setup`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Imu {
     /// Rates of turn, rad/s, body.
-    pub gyro: [f64; 3],
+    pub gyro: Option<[f64; 3]>,
     /// Specific force, m/s2, body: (0, 0, -g) at rest and level.
-    pub accelerometer: [f64; 3],
+    pub accelerometer: Option<[f64; 3]>,
 }
 
 /// A velocity over ground, of a Doppler log, Eq. (9), or of a model, Eq. (10).
@@ -118,15 +119,50 @@ impl Ins15 {
     ///
     /// A sample that is not finite, a covariance that is not positive definite. The filter is as it was.
     pub fn predict(&mut self, imu: &Imu, time: f64) -> Result<(), UkfError> {
-        let (gyro, force) = (Vector3::from(imu.gyro), Vector3::from(imu.accelerometer));
+        let (gyro, force) = (imu.gyro.map(Vector3::from), imu.accelerometer.map(Vector3::from));
+        let setup = &self.setup;
         let mut angles = Trigonometry::default();
-        let noise = process_noise(angles.of(self.filter.state()), &self.setup, time);
-        let at_rest = at_rest(self.setup.gravity).into();
+        let turn_sigma = if gyro.is_some() { setup.gyro_sigma } else { setup.unmeasured_turn };
+        let force_sigma = if force.is_some() { setup.accelerometer_sigma } else { setup.unmeasured_acceleration };
+        let sigmas = StepSigmas { turn: turn_sigma, velocity: setup.velocity_sigma, acceleration: force_sigma };
+        let noise = process_noise(angles.of(self.filter.state()), &sigmas, time);
+        let at_rest = at_rest(setup.gravity).into();
         let process = |state: &SVector<f64, 15>| {
             let angles = angles.of(state);
-            state + derivative(state, angles, &gyro, &(force - Vector3::from(angles.to_body(at_rest)))) * time
+            let force = force.map(|force| force - Vector3::from(angles.to_body(at_rest)));
+            state + derivative(state, angles, gyro.as_ref(), force.as_ref()) * time
         };
         self.filter.predict(process, &noise)
+    }
+
+    /// Becomes less sure of each state by a standard deviation: of one that measurements have contradicted.
+    ///
+    /// # Errors
+    ///
+    /// A deviation that is not finite. The filter is as it was.
+    pub fn doubt(&mut self, sigma: &InsState) -> Result<(), UkfError> {
+        let variances = sigma.to_vector().map(|sigma| sigma * sigma);
+        self.filter.predict(|state| *state, &SMatrix::from_diagonal(&variances))
+    }
+
+    /// Takes a position, m north and east, with the standard deviation of its error, m an axis.
+    ///
+    /// # Errors
+    ///
+    /// A position that is not finite, or a covariance that is not positive definite. The filter is as it was.
+    pub fn take_fix(&mut self, position: [f64; 2], sigma: f64, gate: Option<f64>) -> Result<Innovation<2>, UkfError> {
+        let measurement = Measurement {
+            value: position.into(),
+            noise: diagonal([sigma; 2]),
+            components: [Component::Line; 2],
+            gate,
+        };
+        self.filter.update(&measurement, |state| [state[POSITION], state[POSITION + 1]].into())
+    }
+
+    /// What the filter is told of the instruments, to be told otherwise: of a transponder whose signal another is heard from, say.
+    pub fn setup_mut(&mut self) -> &mut Ins15Setup {
+        &mut self.setup
     }
 
     /// Takes what came, one after the other in the order of [`Aiding`]'s fields. One that fails or is held back leaves the others theirs.

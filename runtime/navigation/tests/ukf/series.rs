@@ -156,6 +156,7 @@ fn ins_setup(params: &Params) -> Ins15Setup {
         receivers: std::array::from_fn(|i| list(&params.0["l_r"][i])),
         transponder: params.list("transponder"),
         gates: Ins15Gates::default(),
+        ..Ins15Setup::default()
     }
 }
 
@@ -172,7 +173,7 @@ fn inertial_navigation_is_followed_to_a_millionth() {
     let variance = params.number("R_dvl");
     let mut worst: (f64, f64) = (0.0, 0.0);
     for row in rows("ins15_a_imu.csv") {
-        let imu = Imu { gyro: row[1..4].try_into().unwrap(), accelerometer: row[4..7].try_into().unwrap() };
+        let imu = Imu { gyro: row[1..4].try_into().ok(), accelerometer: row[4..7].try_into().ok() };
         filter.predict(&imu, params.number("dt")).unwrap();
         let mut aiding = Aiding::default();
         while let Some((_, kind, value)) = rest.next_if(|(step, ..)| *step as f64 == row[0]) {

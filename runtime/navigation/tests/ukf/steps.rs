@@ -162,7 +162,7 @@ fn what_comes_late_gives_the_same_to_the_bit() {
     for step in 0_u32..500 {
         let time = 0.01 * f64::from(step);
         let gyro = std::array::from_fn(|_| 0.005 * random.gaussian());
-        let imu = Event::Imu(Imu { gyro, accelerometer: [0.0, 0.0, -9.81] });
+        let imu = Event::Imu(Imu { gyro: Some(gyro), accelerometer: Some([0.0, 0.0, -9.81]) });
         assert_eq!([&mut in_time, &mut late].map(|history| history.apply(time, imu, run)), [Some(true); 2]);
         if step % 100 == 20 {
             let arrival = Some(std::array::from_fn(|_| (50.6 + 0.001 * random.gaussian()) / 1500.0));

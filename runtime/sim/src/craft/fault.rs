@@ -146,7 +146,13 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
             );
         }
         match fault.trouble {
-            FaultKind::Sensor(sensor, disorder) => disorder.check(sensor, &mut of),
+            FaultKind::Sensor(sensor, disorder) => {
+                disorder.check(sensor, &mut of);
+                let raw = sensor.raw().filter(|_| sensor.measurement().is_none());
+                if let Some((missing, mend)) = raw.and_then(|raw| scenario.instruments.lacks(raw)) {
+                    of.unless(Some("sensor"), false, format!("nothing takes what `{}` tells: {missing}", sensor.name()), mend);
+                }
+            }
             FaultKind::StrongCurrent(current) => of.flow("current", current),
             FaultKind::Flooding { .. } => of.unless(
                 Some("trouble"),
@@ -165,7 +171,7 @@ impl SensorFault {
             let name = info(only).name;
             of.unless(
                 Some("trouble"),
-                sensor.measurement() == only,
+                sensor.measurement() == Some(only),
                 format!("`{}` cannot {what}: only `{name}` can", sensor.name()),
                 format!("write `{name}`, or choose another trouble"),
             );

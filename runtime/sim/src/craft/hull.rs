@@ -10,6 +10,7 @@ mod prestero;
 mod six_dof;
 mod submersible;
 mod surface;
+mod track;
 
 pub(crate) use autopilot::speed_possible;
 
@@ -21,6 +22,8 @@ pub use prestero::{Crossflow, Prestero};
 pub use six_dof::{Controls, Load, Plant, Six, State, Surroundings, attitude_of, runge_kutta};
 pub use submersible::{Settings, Submersible};
 pub use surface::{Body, Surface};
+pub(crate) use track::LEVEL_STEPS;
+pub use track::Track;
 
 use crate::craft::setup::{HullSetup, SubmersibleHull, VehicleSetup};
 use albacore_geometry::{Heading, Point, Vector};
@@ -123,21 +126,22 @@ impl Hull {
     }
 
     /// Lets one tick go by, in water that moves with `flow`. Without a command the propeller stops and the fins are neutral.
-    /// `water_depth` tells the depth of the water at a point.
+    /// `water_depth` tells the depth of the water at a point, and `track` becomes what the tick was, step by step.
     pub fn step(
         &mut self,
         tick: u64,
         command: Option<&Command>,
         flow: Vector,
         water_depth: impl Fn(Point) -> f64,
+        track: Option<&mut Track>,
     ) -> Result<(), Diverged> {
         match self {
             Hull::Kinematic(hull) => {
-                hull.step(tick, command, flow, water_depth);
+                hull.step(tick, command, flow, water_depth, track);
                 Ok(())
             }
-            Hull::Fossen(hull) => hull.step(command, flow, water_depth),
-            Hull::Prestero(hull) => hull.step(command, flow, water_depth),
+            Hull::Fossen(hull) => hull.step(command, flow, water_depth, track),
+            Hull::Prestero(hull) => hull.step(command, flow, water_depth, track),
         }
     }
 

@@ -3,6 +3,7 @@
 
 mod abilities;
 mod adcp;
+mod attitude;
 mod battery;
 mod clock;
 mod compass;
@@ -10,35 +11,45 @@ mod ctd;
 mod delay;
 mod dvl;
 mod fluorometer;
+mod imu;
+mod inertial;
 mod onboard;
 mod played;
 mod positioning;
 mod pressure;
+mod raw;
+mod receivers;
 mod sounder;
 mod usbl;
 
 pub use abilities::Abilities;
 pub use adcp::{Adcp, Looks, LowerAdcp};
+pub use attitude::AttitudeSensor;
 pub use battery::Battery;
 pub use clock::Date;
 pub use compass::Compass;
 pub use ctd::Ctd;
 pub use dvl::Dvl;
 pub use fluorometer::Fluorometer;
+pub use imu::Imu;
+pub(crate) use onboard::Step;
 pub use played::{Played, PlayedSample};
 pub use positioning::{Gps, Lbl, Navigation};
 pub use pressure::Pressure;
+pub(crate) use raw::{RawSample, RawSensor};
+pub use receivers::InvertedUsbl;
 pub use sounder::Sounder;
 pub(crate) use sounder::water_depth;
 pub use usbl::Usbl;
 
-use crate::craft::hull::Motion;
+use crate::craft::fault::Faults;
+use crate::craft::hull::{Motion, StartPose};
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
 use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_navigation::Estimate;
+use albacore_navigation::{Estimate, Inertial, InertialSettings};
 use albacore_vehicle::{Limits, Measurement, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
@@ -85,6 +96,12 @@ pub struct InstrumentSetup {
     pub lower_adcp: Option<LowerAdcp>,
     /// What the vehicle tells of itself; none: nothing.
     pub abilities: Option<Abilities>,
+    /// The inertial unit, which an inertial navigator goes by.
+    pub imu: Imu,
+    /// The attitude sensor, which aids it.
+    pub attitude: AttitudeSensor,
+    /// The receivers of a transponder; none: the vehicle has none.
+    pub inverted_usbl: Option<InvertedUsbl>,
     /// What is told as it was recorded, whatever the instruments would tell.
     pub played: Vec<Played>,
 }
@@ -146,6 +163,9 @@ clauses! {
     "usbl" Usbl => usbl in Some;
     "abilities" Abilities => abilities in Some;
     "lower_adcp" LowerAdcp => lower_adcp in Some;
+    "imu" Imu => imu;
+    "attitude" AttitudeSensor => attitude;
+    "inverted_usbl" InvertedUsbl => inverted_usbl in Some;
 }
 
 impl InstrumentSetup {
@@ -169,13 +189,38 @@ impl InstrumentSetup {
         }
     }
 
+    /// What its inertial navigator is told, where it has one.
+    pub(crate) fn inertial(&self) -> Option<&InertialSettings> {
+        self.navigation.as_ref().and_then(|navigation| navigation.navigator.inertial())
+    }
+
+    /// What a sensor needs that a navigator takes as it measures, where that is missing, and the mend.
+    pub(crate) fn lacks(&self, sensor: RawSensor) -> Option<(&'static str, &'static str)> {
+        let is_inertial = self.inertial().is_some();
+        let has_fixes = self.navigation.as_ref().is_some_and(|navigation| navigation.lbl.is_some());
+        match sensor {
+            RawSensor::AcousticFixes => {
+                (!has_fixes).then_some(("the vehicle has no acoustic fixes", "write `navigation(…, lbl())`"))
+            }
+            RawSensor::SatelliteFixes => {
+                self.gps.is_none().then_some(("the vehicle has no satellite fixes", "add `gps()` to the scenario"))
+            }
+            RawSensor::Receivers => self
+                .inverted_usbl
+                .is_none()
+                .then_some(("the vehicle has no receivers", "add `inverted_usbl()` to the scenario")),
+            _ => (!is_inertial).then_some(("the vehicle has no inertial navigator", "write `navigation(inertial())`")),
+        }
+    }
+
     fn is_played(&self, measurement: &str) -> bool {
         self.played.iter().any(|played| played.name() == measurement)
     }
 
-    /// What of them cannot be.
-    pub(crate) fn check(&self, issues: &mut ScenarioIssues) {
+    /// What of them cannot be, in a world with a transponder or without one, aboard a hull that moves in so many steps a tick.
+    pub(crate) fn check(&self, has_transponder: bool, steps: u32, issues: &mut ScenarioIssues) {
         positioning::check(self, issues);
+        inertial::check(self, has_transponder, steps, issues);
         fluorometer::check(self, issues);
         sounder::check(self, issues);
         played::check(self, issues);
@@ -196,7 +241,8 @@ pub(crate) struct AtRest {
 #[derive(Clone, Debug)]
 pub(crate) struct Instruments {
     navigation: OnboardNavigation,
-    pressure: PressureGauge,
+    /// What tells the depth; none where an inertial navigator does.
+    pressure: Option<PressureGauge>,
     sounder: EchoSounder,
     adcp: Profiler,
     fluorometer: ChemicalSensor,
@@ -210,11 +256,11 @@ pub(crate) struct Instruments {
 }
 
 impl Instruments {
-    /// Those of a run that begins at a place, aboard a vehicle with limits of its own.
-    pub fn new(setup: &InstrumentSetup, limits: &Limits, start: Point, seed: u64) -> Self {
+    /// Those of a run that begins so in a world, aboard a vehicle with limits of its own.
+    pub fn new(setup: &InstrumentSetup, limits: &Limits, world: &World, start: &StartPose, seed: u64) -> Self {
         Instruments {
-            navigation: OnboardNavigation::new(setup, start, seed),
-            pressure: PressureGauge::new(&setup.pressure, seed),
+            navigation: OnboardNavigation::new(setup, world, start, seed),
+            pressure: setup.inertial().is_none().then(|| PressureGauge::new(&setup.pressure, seed)),
             sounder: EchoSounder::new(&setup.sounder, seed),
             adcp: Profiler::new(&setup.adcp, seed),
             fluorometer: ChemicalSensor::new(&setup.fluorometer, seed),
@@ -245,9 +291,19 @@ impl Instruments {
         ]
     }
 
-    /// Lets one tick go by, in which the vehicle moved and came to an altitude (m).
-    pub fn step(&mut self, tick: u64, motion: &Motion, altitude: f64) {
-        self.navigation.step(tick, motion, altitude);
+    /// Lets one tick go by.
+    pub fn step(&mut self, step: &Step, world: &World, faults: &mut Faults) {
+        self.navigation.step(step, world, faults);
+    }
+
+    /// All that an inertial navigator believes, where the vehicle has one.
+    pub fn inertial(&self) -> Option<&Inertial> {
+        self.navigation.inertial()
+    }
+
+    /// What the navigation has noticed since this was last asked.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        self.navigation.take_notices()
     }
 
     /// Adds what they tell at a tick.

@@ -120,6 +120,14 @@ impl HullSetup {
         }
     }
 
+    /// In so many steps it moves in a tick.
+    pub(crate) fn steps(&self) -> u32 {
+        match self {
+            HullSetup::Kinematic(_) => hull::LEVEL_STEPS,
+            HullSetup::Fossen(hull) | HullSetup::Prestero(hull, _) => hull.steps(),
+        }
+    }
+
     /// Its greatest speed through the water, m/s.
     pub fn speed_max(&self) -> f64 {
         match self {

@@ -1,7 +1,6 @@
 //! How the 15 states change in time, and what is not known of it.
 
 use super::attitude::rates;
-use super::setup::Ins15Setup;
 use albacore_geometry::Attitude;
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -25,33 +24,47 @@ pub fn at_rest(gravity: f64) -> Vector3<f64> {
     Vector3::new(0.0, 0.0, -gravity)
 }
 
-/// Eq. (14), a second: with the gyroscopes' rates, rad/s, and what the accelerometers tell beyond what they tell at rest, m/s2.
+/// Eq. (14), a second: with the gyroscopes' rates, rad/s, and what the accelerometers tell beyond what they tell at rest, m/s2. Without the
+/// first it does not turn, without the second its velocity in the body's frame stays.
 #[inline]
 pub fn derivative(
     state: &SVector<f64, 15>,
     attitude: Attitude,
-    gyro: &Vector3<f64>,
-    force: &Vector3<f64>,
+    gyro: Option<&Vector3<f64>>,
+    force: Option<&Vector3<f64>>,
 ) -> SVector<f64, 15> {
-    let turn = gyro - part(state, GYRO_BIAS);
+    let turn = gyro.map_or_else(Vector3::zeros, |gyro| gyro - part(state, GYRO_BIAS));
     let velocity = part(state, VELOCITY);
     let position = attitude.to_ned(velocity.into()).into();
-    let acceleration = force - turn.cross(&velocity) - part(state, ACCELEROMETER_BIAS);
+    let acceleration = force.map_or_else(Vector3::zeros, |force| {
+        force - turn.cross(&velocity) - part(state, ACCELEROMETER_BIAS)
+    });
     let still = Vector3::zeros();
     let parts = [rates(attitude) * turn, still, position, acceleration, still];
     SVector::from_fn(|i, _| parts[i / 3][i % 3])
 }
 
+/// Standard deviations of what a step goes on with.
+#[derive(Clone, Copy, Debug)]
+pub struct StepSigmas {
+    /// Rates of turn, rad/s.
+    pub turn: f64,
+    /// Velocity, m/s.
+    pub velocity: f64,
+    /// Acceleration, m/s2.
+    pub acceleration: f64,
+}
+
 /// Eq. (16): the covariance of what a step of so many seconds adds. `J1 (sigma_u^2 I) J1'` is `sigma_u^2 I`.
 #[inline]
-pub fn process_noise(attitude: Attitude, setup: &Ins15Setup, time: f64) -> SMatrix<f64, 15, 15> {
+pub fn process_noise(attitude: Attitude, sigmas: &StepSigmas, time: f64) -> SMatrix<f64, 15, 15> {
     let square = |x: f64| x * x;
     let mut noise = SMatrix::<f64, 15, 15>::zeros();
-    let rates = rates(attitude) * (setup.gyro_sigma * time);
+    let rates = rates(attitude) * (sigmas.turn * time);
     noise.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&(rates * rates.transpose()));
     for axis in 0..3 {
-        noise[(POSITION + axis, POSITION + axis)] = square(setup.velocity_sigma * time);
-        noise[(VELOCITY + axis, VELOCITY + axis)] = square(setup.accelerometer_sigma * time);
+        noise[(POSITION + axis, POSITION + axis)] = square(sigmas.velocity * time);
+        noise[(VELOCITY + axis, VELOCITY + axis)] = square(sigmas.acceleration * time);
     }
     noise
 }

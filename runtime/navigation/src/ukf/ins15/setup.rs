@@ -14,6 +14,11 @@ pub struct Ins15Setup {
     pub gyro_sigma: f64,
     /// Of a sample of the accelerometers, m/s2.
     pub accelerometer_sigma: f64,
+    /// Of a rate of turn that was not measured, as white noise of each step, rad/s. A turn of 0.2 rad/s for some 5 s has the power of
+    /// 6 rad/s at 100 Hz.
+    pub unmeasured_turn: f64,
+    /// Of an acceleration that was not measured, likewise, m/s2: 0.2 m/s2 for some 5 s.
+    pub unmeasured_acceleration: f64,
     /// Of the velocity with which a step goes on, m/s: the paper's `sigma_u` of Eq. (16), of which it has no number.
     pub velocity_sigma: f64,
     /// Of roll, pitch and yaw as they are measured, rad.
@@ -64,6 +69,8 @@ impl Default for Ins15Setup {
             yaw: Component::Circle,
             gyro_sigma: 0.005,
             accelerometer_sigma: 0.1,
+            unmeasured_turn: 6.0,
+            unmeasured_acceleration: 6.0,
             velocity_sigma: 0.05,
             attitude_sigma: [0.05, 0.05, 0.2],
             pressure_sigma: 200.0,

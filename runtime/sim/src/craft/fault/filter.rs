@@ -1,12 +1,11 @@
 //! One fault of a sensor at work: what becomes of the samples of each tick.
 
-use super::sensor::turned;
+use super::sensor::Failing;
 use super::{Sensor, SensorFault};
 use crate::noise::{Noise, Stream};
 use albacore_geometry::Heading;
 use albacore_geometry::math::{PI, ln};
-use albacore_vehicle::measurements::HEADING;
-use albacore_vehicle::{Reading, Sample, TICK_S};
+use albacore_vehicle::TICK_S;
 use std::collections::VecDeque;
 
 /// A sensor has this many measurements at most.
@@ -14,7 +13,7 @@ const CHANNELS_MAX: usize = 2;
 
 /// A fault of a sensor, with what it must remember.
 #[derive(Clone, Debug)]
-pub(crate) struct Filter {
+pub(crate) struct Filter<S> {
     sensor: Sensor,
     disorder: SensorFault,
     noise: Noise,
@@ -23,9 +22,9 @@ pub(crate) struct Filter {
     /// Where a wrong position or flow is off.
     toward: Heading,
     /// The last sample of each measurement from before.
-    last: Vec<Sample>,
+    last: Vec<S>,
     /// Samples on their way, and the tick at which each arrives.
-    delayed: VecDeque<(u64, Sample)>,
+    delayed: VecDeque<(u64, S)>,
     /// The tick from which on the next sample passes, where they are slow; the tick of the next turn, where they come and go.
     next: u64,
     passes: bool,
@@ -34,7 +33,7 @@ pub(crate) struct Filter {
     turned_to: Option<(u64, f64)>,
 }
 
-impl Filter {
+impl<S: Failing> Filter<S> {
     /// The fault of this number of a run.
     pub fn new(sensor: Sensor, disorder: SensorFault, seed: u64, number: u32) -> Self {
         let direction = Noise::sub(seed, Stream::FaultDirection, number).uniform(0);
@@ -54,20 +53,20 @@ impl Filter {
     }
 
     /// A tick before the fault, or after it: what was on its way is lost.
-    pub fn watch(&mut self, tick: u64, samples: &[Sample]) {
+    pub fn watch(&mut self, tick: u64, samples: &[S]) {
         self.delayed.clear();
         (self.next, self.passes, self.missed) = (0, true, 0.0);
-        for sample in samples.iter().filter(|s| self.sensor.has(s.measurement)) {
-            self.last.retain(|known| known.measurement != sample.measurement);
+        for sample in samples.iter().filter(|s| s.is_of(self.sensor)) {
+            self.last.retain(|known| !known.is_like(sample));
             self.last.push(*sample);
-            if sample.measurement == HEADING {
-                self.turned_to = Some((tick, sample.reading[0]));
+            if let Some(heading) = sample.heading() {
+                self.turned_to = Some((tick, heading));
             }
         }
     }
 
     /// A tick of the fault.
-    pub fn apply(&mut self, tick: u64, samples: &mut Vec<Sample>) {
+    pub fn apply(&mut self, tick: u64, samples: &mut Vec<S>) {
         self.take_turns(tick);
         let mut came = false;
         let sensor = self.sensor;
@@ -75,7 +74,7 @@ impl Filter {
             self.turn(tick, rate, samples);
         }
         samples.retain_mut(|sample| {
-            if !sensor.has(sample.measurement) {
+            if !sample.is_of(sensor) {
                 return true;
             }
             came = true;
@@ -93,21 +92,20 @@ impl Filter {
     }
 
     /// Whether a sample passes, and as what.
-    fn passes(&mut self, tick: u64, sample: &mut Sample) -> bool {
-        let width = self.sensor.quantity().width();
+    fn passes(&mut self, tick: u64, sample: &mut S) -> bool {
         match self.disorder {
             SensorFault::Off => return false,
-            SensorFault::Stuck => match self.last.iter().find(|last| last.measurement == sample.measurement) {
-                Some(last) => *sample = *last,
+            SensorFault::Stuck => match self.last.iter_mut().find(|last| last.is_like(sample)) {
+                Some(last) => sample.numbers().copy_from_slice(last.numbers()),
                 None => self.last.push(*sample),
             },
             SensorFault::Garbage => {
-                let most = self.sensor.garbage();
-                for number in &mut sample.reading[..width] {
+                let most = sample.garbage();
+                for number in sample.numbers() {
                     *number = most * (2.0 * self.draw() - 1.0);
                 }
             }
-            SensorFault::Wrong(size) => sample.reading = self.sensor.wrong(sample.reading, size, self.toward),
+            SensorFault::Wrong(size) => sample.be_wrong(size, self.toward),
             SensorFault::Slow(_) => return tick >= self.next,
             SensorFault::Delayed(by) => {
                 self.delayed.push_back((tick + ticks(by), *sample));
@@ -115,12 +113,12 @@ impl Filter {
             }
             SensorFault::Intermittent { .. } => return self.passes,
             SensorFault::NotANumber => {
-                for number in &mut sample.reading[..width] {
+                for number in sample.numbers() {
                     *number = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][(3.0 * self.draw()) as usize % 3];
                 }
             }
-            SensorFault::Jump(by) => sample.reading = moved(sample.reading, [by.north, by.east]),
-            SensorFault::Saturated(_) => sample.reading[0] = turned(sample.reading[0], -self.missed),
+            SensorFault::Jump(by) => sample.numbers().iter_mut().zip([by.north, by.east]).for_each(|(x, by)| *x += by),
+            SensorFault::Saturated(_) => sample.miss(self.missed),
         }
         true
     }
@@ -139,8 +137,8 @@ impl Filter {
     }
 
     /// What the gyroscope misses of the turn since the last heading.
-    fn turn(&mut self, tick: u64, rate: f64, samples: &[Sample]) {
-        let Some(heading) = samples.iter().find(|s| s.measurement == HEADING).map(|s| s.reading[0]) else { return };
+    fn turn(&mut self, tick: u64, rate: f64, samples: &[S]) {
+        let Some(heading) = samples.iter().find_map(Failing::heading) else { return };
         if let Some((before, from)) = self.turned_to {
             let turn = Heading::from_radians(heading) - Heading::from_radians(from);
             let most = rate * (tick - before) as f64 * TICK_S;
@@ -155,10 +153,6 @@ impl Filter {
     }
 }
 
-fn moved(reading: Reading, by: [f64; 2]) -> Reading {
-    [reading[0] + by[0], reading[1] + by[1], reading[2], reading[3]]
-}
-
 /// Whole ticks, one at least. A time beyond all runs saturates.
 fn ticks(seconds: f64) -> u64 {
     ((seconds / TICK_S).round() as u64).clamp(1, u64::from(u32::MAX))
@@ -169,7 +163,7 @@ mod tests {
     use super::*;
     use albacore_geometry::Vector;
     use albacore_vehicle::Snapshot;
-    use albacore_vehicle::measurements::{COURSE, DEPTH, POSITION};
+    use albacore_vehicle::measurements::{COURSE, DEPTH, HEADING, POSITION};
 
     fn of(measurement: u16) -> Sensor {
         Sensor::of(measurement).unwrap()

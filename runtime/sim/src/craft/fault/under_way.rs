@@ -2,7 +2,7 @@
 
 use super::filter::Filter;
 use super::{Fault, FaultKind, to_tick};
-use crate::craft::sensors::water_depth;
+use crate::craft::sensors::{RawSample, water_depth};
 use albacore_geometry::Vector;
 use albacore_vehicle::measurements::WATER_DEPTH;
 use albacore_vehicle::{Sample, TICK_S};
@@ -35,18 +35,27 @@ pub(crate) struct Faults {
 struct Known {
     fault: Fault,
     in_force: bool,
-    filter: Option<Filter>,
+    /// What it does to what is told, and to what a navigator takes as it is measured.
+    filter: Option<Filter<Sample>>,
+    raw: Option<Filter<RawSample>>,
 }
 
 impl Faults {
-    /// Those of a scenario, in its order.
-    pub fn new(faults: &[Fault], seed: u64) -> Self {
+    /// Those of a scenario, in its order. Where a navigator takes what its sensors measure, their faults are in what it makes of it, and
+    /// in nothing else that is told.
+    pub fn new(faults: &[Fault], takes_raw: bool, seed: u64) -> Self {
         let known = faults.iter().zip(0..).map(|(&fault, number)| {
-            let filter = match fault.trouble {
-                FaultKind::Sensor(sensor, disorder) => Some(Filter::new(sensor, disorder, seed, number)),
-                _ => None,
+            let (filter, raw) = match fault.trouble {
+                FaultKind::Sensor(sensor, disorder) => (
+                    sensor
+                        .measurement()
+                        .filter(|_| !takes_raw || sensor.raw().is_none())
+                        .map(|_| Filter::new(sensor, disorder, seed, number)),
+                    sensor.raw().map(|_| Filter::new(sensor, disorder, seed, number)),
+                ),
+                _ => (None, None),
             };
-            Known { fault, in_force: false, filter }
+            Known { fault, in_force: false, filter, raw }
         });
         Faults { all: known.collect(), ..Faults::default() }
     }
@@ -100,6 +109,17 @@ impl Faults {
         }
     }
 
+    /// Makes of a tick's raw samples what a navigator takes.
+    pub fn filter_raw(&mut self, tick: u64, samples: &mut Vec<RawSample>) {
+        for known in &mut self.all {
+            match &mut known.raw {
+                Some(filter) if known.in_force => filter.apply(tick, samples),
+                Some(filter) => filter.watch(tick, samples),
+                None => {}
+            }
+        }
+    }
+
     /// What has begun and ended since this was last asked.
     pub fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)
@@ -139,7 +159,7 @@ mod tests {
     fn begin_and_end_are_told_to_the_tick() {
         let trouble = FaultKind::Sensor(Sensor::of(FLOW).unwrap(), SensorFault::NotANumber);
         let mut faults =
-            Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(FaultKind::IgnoredCommands, 0.4, None)], 1);
+            Faults::new(&[fault(trouble, 0.3, Some(0.5)), fault(FaultKind::IgnoredCommands, 0.4, None)], false, 1);
         let told: Vec<(u64, String)> = (0..10)
             .flat_map(|tick| {
                 faults.advance_to(tick);
@@ -160,7 +180,7 @@ mod tests {
         let current = |north| FaultKind::StrongCurrent(Vector::new(north, 0.0));
         let list =
             [fault(FaultKind::Leak, 0.0, Some(0.1)), fault(current(1.0), 0.0, None), fault(current(0.5), 0.0, None)];
-        let mut faults = Faults::new(&list, 1);
+        let mut faults = Faults::new(&list, false, 1);
         (0..5).for_each(|tick| faults.advance_to(tick));
         assert!(faults.ailing().leaks);
         assert_eq!(faults.ailing().current, Vector::new(1.5, 0.0));
@@ -174,7 +194,7 @@ mod tests {
             fault(flooding(4.0, 1.0), 0.5, Some(1.0)),
             fault(flooding(8.0, 0.0), 2.0, Some(2.1)),
         ];
-        let mut faults = Faults::new(&list, 1);
+        let mut faults = Faults::new(&list, false, 1);
         let water: Vec<f64> = (0..30)
             .map(|tick| {
                 faults.advance_to(tick);
@@ -191,7 +211,7 @@ mod tests {
     fn the_waters_depth_fails_with_either_part() {
         let told = |measurement, disorder| {
             let sensor = Sensor::of(measurement).unwrap();
-            let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], 1);
+            let mut faults = Faults::new(&[fault(FaultKind::Sensor(sensor, disorder), 0.0, None)], false, 1);
             faults.advance_to(0);
             let mut snapshot = Snapshot::default();
             for (measurement, metres) in [(DEPTH, 3.0), (ALTITUDE, 5.0), (WATER_DEPTH, 8.0)] {

@@ -1,6 +1,6 @@
 //! How the vehicle moves: heading, speed and depth follow the command within limits on their rates, and the water carries it.
 
-use super::{Motion, StartPose};
+use super::{Motion, StartPose, Track};
 use crate::craft::setup::KinematicHull;
 use crate::noise::{Noise, Stream};
 use albacore_geometry::math::exp;
@@ -15,13 +15,15 @@ pub struct Kinematics {
     /// Where a rudder is stuck: a share of its greatest deflection, positive to starboard.
     pub stuck_rudder: Option<f64>,
     jitter: Jitter,
+    /// How fast it sank in the last tick, m/s.
+    sinks: f64,
 }
 
 impl Kinematics {
     /// At rest in water that moves with `flow`.
     pub fn new(settings: &KinematicHull, berth: &StartPose, seed: u64) -> Self {
         let jitter = Jitter::new(settings, seed);
-        Kinematics { settings: settings.clone(), motion: berth.motion(), stuck_rudder: None, jitter }
+        Kinematics { settings: settings.clone(), motion: berth.motion(), stuck_rudder: None, jitter, sinks: 0.0 }
     }
 
     /// Where it is and how it moves.
@@ -34,7 +36,14 @@ impl Kinematics {
     ///
     /// Where it would come to lie on the bottom, or in it, it is aground: it stays where it was, at rest, until what is
     /// commanded leads up or away.
-    pub fn step(&mut self, tick: u64, command: Option<&Command>, flow: Vector, water_depth: impl Fn(Point) -> f64) {
+    pub fn step(
+        &mut self,
+        tick: u64,
+        command: Option<&Command>,
+        flow: Vector,
+        water_depth: impl Fn(Point) -> f64,
+        track: Option<&mut Track>,
+    ) {
         let v = self.motion;
         let wanted_heading = command.map_or(v.heading, |c| c.heading);
         let wanted_speed = command.map_or(0.0, |c| c.speed.clamp(0.0, self.settings.speed_max));
@@ -69,6 +78,10 @@ impl Kinematics {
         } else {
             Motion { position: reached, ground_velocity, depth, aground, ..self.motion }
         };
+        let sank = std::mem::replace(&mut self.sinks, (self.motion.depth - v.depth) / TICK_S);
+        if let Some(track) = track {
+            track.level(&v, &self.motion, [sank, self.sinks]);
+        }
     }
 
     /// The heading after `time` seconds. A stuck rudder turns at its share of the greatest rate at full speed, and at slower
@@ -146,7 +159,7 @@ mod tests {
     }
 
     fn run(v: &mut Kinematics, ticks: u64, command: Option<&Command>, flow: Vector) {
-        (1..=ticks).for_each(|tick| v.step(tick, command, flow, |_| 20.0));
+        (1..=ticks).for_each(|tick| v.step(tick, command, flow, |_| 20.0, None));
     }
 
     #[test]
@@ -166,7 +179,7 @@ mod tests {
         let start = v.motion.position;
         for tick in 0..180 {
             let ahead = v.motion.heading.degrees() + 90.0;
-            v.step(tick, Some(&command(ahead, 2.0, Vertical::Depth(0.0))), Vector::ZERO, |_| 20.0);
+            v.step(tick, Some(&command(ahead, 2.0, Vertical::Depth(0.0))), Vector::ZERO, |_| 20.0, None);
         }
         // Half a turn in 18 s: across the circle of radius v / rate = 11.46 m.
         assert!((v.motion.position.distance(start) - 2.0 * 2.0 / settings.turn_rate).abs() < 0.01);
@@ -209,7 +222,7 @@ mod tests {
         let aground = || {
             let mut v = at_rest(&KinematicHull::default(), 15.0, Vector::ZERO);
             for tick in 1..=600 {
-                v.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(15.0))), Vector::new(0.1, 0.0), beach);
+                v.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(15.0))), Vector::new(0.1, 0.0), beach, None);
             }
             v
         };
@@ -223,7 +236,7 @@ mod tests {
 
         let mut up = aground();
         for tick in 601..=700 {
-            up.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(12.0))), Vector::ZERO, beach);
+            up.step(tick, Some(&command(0.0, 2.0, Vertical::Depth(12.0))), Vector::ZERO, beach, None);
         }
         assert!(
             !up.motion.aground && up.motion.depth == 12.0 && up.motion.position.north > 52.0,
@@ -233,7 +246,7 @@ mod tests {
 
         let mut away = aground();
         for tick in 601..=900 {
-            away.step(tick, Some(&command(180.0, 2.0, Vertical::Depth(15.0))), Vector::ZERO, beach);
+            away.step(tick, Some(&command(180.0, 2.0, Vertical::Depth(15.0))), Vector::ZERO, beach, None);
         }
         assert!(
             !away.motion.aground && away.motion.speed == 2.0 && away.motion.position.north < 45.0,
@@ -254,7 +267,7 @@ mod tests {
         // An altitude that the water does not have is the surface: there the shore stops it.
         let mut v = at_rest(&KinematicHull::default(), 0.0, Vector::ZERO);
         for tick in 1..=2000 {
-            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(3.0))), Vector::ZERO, beach);
+            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(3.0))), Vector::ZERO, beach, None);
         }
         assert!(
             v.motion.aground && v.motion.depth == 0.0 && (199.7..=200.0).contains(&v.motion.position.north),
@@ -269,7 +282,7 @@ mod tests {
         let mut v = at_rest(&settings, 18.0, Vector::ZERO);
         let (mut sum, mut n) = (0.0, 0.0);
         for tick in 0..100_000 {
-            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(2.0))), Vector::ZERO, |_| 20.0);
+            v.step(tick, Some(&command(0.0, 2.0, Vertical::Altitude(2.0))), Vector::ZERO, |_| 20.0, None);
             let error = 20.0 - v.motion.depth - 2.0;
             assert!(error.abs() <= 0.7 + 1e-9);
             sum += error * error;

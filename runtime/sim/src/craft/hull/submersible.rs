@@ -5,7 +5,7 @@ use super::autopilot::{Autopilot, Gains, Sensed};
 use super::grounding::{Grounding, Intent, pivot};
 use super::six_dof::{Controls, Plant, State, Surroundings, attitude_of, runge_kutta};
 use super::surface::{Body, Surface};
-use super::{Diverged, Motion, StartPose};
+use super::{Diverged, Motion, StartPose, Track};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_vehicle::{Command, TICK_S};
 use nalgebra::Vector6;
@@ -94,21 +94,31 @@ impl<P: Plant> Submersible<P> {
         command: Option<&Command>,
         flow: Vector,
         water_depth: impl Fn(Point) -> f64,
+        mut track: Option<&mut Track>,
     ) -> Result<(), Diverged> {
         let before = self.motion.position;
         let goal = self.controls(command, water_depth(before));
         let around = Surroundings { current: flow, buoyancy_loss: self.buoyancy_loss, surface: Some(self.surface) };
         let h = TICK_S / f64::from(self.steps);
         let mut state = self.state;
+        if let Some(track) = &mut track {
+            track.begin(&state);
+        }
         for _ in 0..self.steps {
             let controls = self.actuators.step(&goal);
             state = runge_kutta(&self.plant, &state, &controls, &around, h);
+            if let Some(track) = &mut track {
+                track.push(&controls[1], &state);
+            }
         }
         if !state.velocity.iter().all(|rate| rate.abs() <= RATE_MAX) {
             return Err(Diverged);
         }
         state.pose[5] = wrap_angle(state.pose[5]);
         self.meet_bottom(state, command, water_depth);
+        if let Some(track) = &mut track {
+            track.end_in(&self.state);
+        }
         self.observe(before, flow);
         Ok(())
     }

@@ -1,14 +1,19 @@
-//! What the vehicle's own navigation is made of: the compass, the Doppler log that it turns, and the position that comes of both.
+//! What the vehicle's own navigation is made of: the compass, the Doppler log that it turns, what an inertial unit adds, and the position that
+//! comes of them.
 
 use super::compass::MagneticCompass;
 use super::dvl::DopplerLog;
+use super::inertial::{InertialSuite, departure, ground_velocity};
 use super::positioning::Positioning;
+use super::raw::RawSample;
 use super::{Instrument, InstrumentSetup, Surroundings};
-use crate::craft::hull::Motion;
+use crate::craft::fault::Faults;
+use crate::craft::hull::{Motion, StartPose, Track};
+use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_navigation::Estimate;
-use albacore_vehicle::Snapshot;
-use albacore_vehicle::measurements::{COURSE, HEADING, POSITION, SPEED};
+use albacore_navigation::{Estimate, Inertial, InertialSettings};
+use albacore_vehicle::measurements::{COURSE, DEPTH, HEADING, POSITION, SPEED};
+use albacore_vehicle::{Snapshot, TICK_S};
 
 /// Compass, Doppler log and position, of which each needs another.
 #[derive(Clone, Debug)]
@@ -16,24 +21,48 @@ pub struct OnboardNavigation {
     compass: MagneticCompass,
     dvl: DopplerLog,
     positioning: Positioning,
+    /// The instruments of an inertial navigator, where the vehicle has one.
+    suite: Option<InertialSuite>,
+    /// What came in a tick as it was measured.
+    raw: Vec<RawSample>,
 }
 
 impl OnboardNavigation {
-    /// That of a run, which begins at a place.
-    pub fn new(setup: &InstrumentSetup, start: Point, seed: u64) -> Self {
+    /// That of a run.
+    pub fn new(setup: &InstrumentSetup, world: &World, start: &StartPose, seed: u64) -> Self {
+        let inertial = setup.inertial();
+        let sigma = inertial.map_or(0.0, |InertialSettings { start, .. }| *start);
+        let departure = departure(setup, world.transponder(), start, sigma, seed);
         OnboardNavigation {
             compass: MagneticCompass::new(&setup.compass, seed),
             dvl: DopplerLog::new(&setup.dvl, seed),
-            positioning: Positioning::new(setup.navigation.as_ref(), setup.gps.as_ref(), start, seed),
+            positioning: Positioning::new(setup.navigation.as_ref(), setup.gps.as_ref(), &departure, seed),
+            suite: inertial.map(|_| InertialSuite::new(setup, seed)),
+            raw: Vec::new(),
         }
     }
 
     /// Lets one tick go by, in which the vehicle moved and came to an altitude (m).
-    pub fn step(&mut self, tick: u64, motion: &Motion, altitude: f64) {
+    pub fn step(&mut self, step: &Step, world: &World, faults: &mut Faults) {
+        let Step { tick, motion, altitude, track } = *step;
         let velocity = || self.velocity(tick, motion.ground_velocity, motion.heading);
         let measured = self.dvl.has_lock(altitude).then(velocity);
         let heading = self.compass(tick, motion.heading);
-        self.positioning.step(tick, measured, heading, motion.position, motion.depth);
+        self.positioning.reckon(tick, measured, heading);
+        self.raw.clear();
+        if let (Some(suite), Some(track)) = (&self.suite, track) {
+            suite.measure(tick, track, altitude, world, &mut self.raw);
+        }
+        self.positioning.measure(tick, motion.position, motion.depth, &mut self.raw);
+        faults.filter_raw(tick, &mut self.raw);
+        if let (Some(suite), Some(navigator)) = (&self.suite, self.positioning.navigator()) {
+            if let Some(inertial) = navigator.inertial_mut() {
+                let time = tick as f64 * TICK_S;
+                suite.hear(inertial, world.stratification().at(motion.position, motion.depth, time), motion.depth);
+            }
+            suite.feed(&self.raw, navigator);
+        }
+        self.positioning.take(&self.raw);
     }
 
     /// Where it believes that a vehicle is which is at a place.
@@ -41,9 +70,22 @@ impl OnboardNavigation {
         self.positioning.belief(truth)
     }
 
-    /// What the compass reads at a tick on a heading.
+    /// All that it believes, where it is inertial.
+    pub fn inertial(&self) -> Option<&Inertial> {
+        self.positioning.inertial()
+    }
+
+    /// What it has noticed since this was last asked.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        self.positioning.navigator().map_or_else(Vec::new, |navigator| navigator.take_notices())
+    }
+
+    /// Where the nose points at a tick on a heading, as the compass reads it or an inertial navigator has it.
     pub fn compass(&self, tick: u64, heading: Heading) -> Heading {
-        heading + self.compass.error(tick, heading).unwrap_or(0.0)
+        match self.inertial() {
+            Some(inertial) => Heading::from_radians(inertial.state().attitude[2]),
+            None => heading + self.compass.error(tick, heading).unwrap_or(0.0),
+        }
     }
 
     /// The velocity over ground as the Doppler log measures it and the compass turns it, m/s.
@@ -54,6 +96,16 @@ impl OnboardNavigation {
             None => velocity,
         }
     }
+
+    /// What an inertial navigator tells, at every tick, beside the position.
+    fn tell_inertial(inertial: &Inertial, snapshot: &mut Snapshot) {
+        let state = inertial.state();
+        let velocity = ground_velocity(&state);
+        snapshot.push(COURSE, &[velocity.toward().radians()]);
+        snapshot.push(HEADING, &[Heading::from_radians(state.attitude[2]).radians()]);
+        snapshot.push(SPEED, &[velocity.length()]);
+        snapshot.push(DEPTH, &[state.position[2].max(0.0)]);
+    }
 }
 
 impl Instrument for OnboardNavigation {
@@ -61,6 +113,9 @@ impl Instrument for OnboardNavigation {
         let (tick, truth) = (around.tick, around.truth);
         let Estimate { position, sigma } = self.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
+        if let Some(inertial) = self.inertial() {
+            return Self::tell_inertial(inertial, snapshot);
+        }
         let velocity = self.velocity(tick, around.ground_velocity, truth.heading);
         let velocity = self.dvl.sample(tick, truth.altitude, velocity);
         if let Some(velocity) = velocity {
@@ -73,4 +128,17 @@ impl Instrument for OnboardNavigation {
             snapshot.push(SPEED, &[velocity.length()]);
         }
     }
+}
+
+/// A tick as the instruments go through it.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// Which.
+    pub tick: u64,
+    /// Where it led.
+    pub motion: &'a Motion,
+    /// The height above the bottom there, m.
+    pub altitude: f64,
+    /// How the hull moved within it, where that is asked for.
+    pub track: Option<&'a Track>,
 }

@@ -2,11 +2,12 @@
 
 use super::InstrumentSetup;
 use super::delay::Delay;
+use super::raw::{RawSample, RawSensor};
 use crate::noise::{Noise, Stream};
 use crate::scenario::ScenarioIssues;
 use albacore_geometry::math::TAU;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_navigation::{Estimate, Fix, Navigator, NavigatorSetup, Sensed};
+use albacore_navigation::{Departure, Estimate, Fix, Inertial, Navigator, NavigatorSetup, Sensed};
 use albacore_vehicle::TICK_S;
 use serde::Deserialize;
 
@@ -94,9 +95,9 @@ struct Navigated {
 
 impl Positioning {
     /// Begins at the true start: the last thing a vehicle had before it dived was a satellite fix.
-    pub fn new(navigation: Option<&Navigation>, gps: Option<&Gps>, start: Point, seed: u64) -> Self {
+    pub fn new(navigation: Option<&Navigation>, gps: Option<&Gps>, departure: &Departure, seed: u64) -> Self {
         Positioning(navigation.map(|navigation| Navigated {
-            navigator: navigation.navigator.begin(start),
+            navigator: navigation.navigator.begin(departure),
             // White noise of this deviation, held over a tick, integrates to the random walk.
             deviation: navigation.navigator.velocity_walk() / TICK_S.sqrt(),
             velocity_noise: Noise::new(seed, Stream::GroundVelocity),
@@ -111,37 +112,70 @@ impl Positioning {
         }))
     }
 
-    /// Lets one tick go by, in which the vehicle measured a velocity over ground (m/s), if it could, and its heading, and came to a
-    /// point and a depth (m).
-    pub fn step(&mut self, tick: u64, measured: Option<Vector>, heading: Heading, position: Point, depth: f64) {
+    /// Lets one tick go by, in which the vehicle measured a velocity over ground (m/s), if it could, and its heading.
+    pub fn reckon(&mut self, tick: u64, measured: Option<Vector>, heading: Heading) {
         let Some(own) = &mut self.0 else { return };
         let velocity = measured.unwrap_or(own.velocity);
         own.velocity = velocity;
-        let pair = |noise: Noise| Vector::new(noise.gaussian(2 * tick), noise.gaussian(2 * tick + 1));
         let ground_velocity =
-            if own.deviation > 0.0 { velocity + own.deviation * pair(own.velocity_noise) } else { velocity };
+            if own.deviation > 0.0 { velocity + own.deviation * pair(own.velocity_noise, tick) } else { velocity };
         own.navigator.predict(&Sensed { ground_velocity, heading }, TICK_S);
+    }
+
+    /// The fixes that come at a tick, of a vehicle at a point and a depth, m.
+    pub fn measure(&mut self, tick: u64, position: Point, depth: f64, raw: &mut Vec<RawSample>) {
+        let Some(own) = &mut self.0 else { return };
+        let fix = |sensor, at: Point| RawSample::new(sensor, 0, [at.north, at.east]);
         if let Some(lbl) = &own.lbl {
             let ticks = ((lbl.every / TICK_S).round() as u64).max(1);
-            let fix = || position + lbl.sigma * pair(own.fix_noise) + lbl_error(lbl, tick, own.outliers);
-            if let Some(position) = own.lbl_fixes.pass(tick, tick.is_multiple_of(ticks).then(fix)) {
-                own.navigator.update(&Fix { position, sigma: lbl.sigma, gate: lbl.gate });
-            }
+            let told = || position + lbl.sigma * pair(own.fix_noise, tick) + lbl_error(lbl, tick, own.outliers);
+            let came = own.lbl_fixes.pass(tick, tick.is_multiple_of(ticks).then(told));
+            raw.extend(came.map(|at| fix(RawSensor::AcousticFixes, at)));
         }
         if let Some(gps) = &own.gps {
             let ticks = ((gps.every / TICK_S).round() as u64).max(1);
-            let fix = || position + gps.sigma * pair(own.gps_noise) + gps.bias;
+            let told = || position + gps.sigma * pair(own.gps_noise, tick) + gps.bias;
             let hears = depth < gps.above && tick.is_multiple_of(ticks);
-            if let Some(position) = own.gps_fixes.pass(tick, hears.then(fix)) {
-                own.navigator.update(&Fix { position, sigma: gps.sigma, gate: 0.0 });
+            let came = own.gps_fixes.pass(tick, hears.then(told));
+            raw.extend(came.map(|at| fix(RawSensor::SatelliteFixes, at)));
+        }
+    }
+
+    /// Takes the fixes that came.
+    pub fn take(&mut self, raw: &[RawSample]) {
+        let Some(own) = &mut self.0 else { return };
+        for sample in raw {
+            let (sigma, gate) = match (sample.sensor, &own.lbl, &own.gps) {
+                (RawSensor::AcousticFixes, Some(lbl), _) => (lbl.sigma, lbl.gate),
+                (RawSensor::SatelliteFixes, _, Some(gps)) => (gps.sigma, 0.0),
+                _ => continue,
+            };
+            let [north, east] = sample.array();
+            if north.is_finite() && east.is_finite() {
+                own.navigator.update(&Fix { position: Point::new(north, east), sigma, gate });
             }
         }
+    }
+
+    /// What makes a position of what is sensed; none where the truth is known.
+    pub fn navigator(&mut self) -> Option<&mut (dyn Navigator + 'static)> {
+        self.0.as_mut().map(|own| own.navigator.as_mut())
+    }
+
+    /// The same, where it is an inertial one.
+    pub fn inertial(&self) -> Option<&Inertial> {
+        self.0.as_ref().and_then(|own| own.navigator.inertial())
     }
 
     /// Where the vehicle believes it is.
     pub fn belief(&self, truth: Point) -> Estimate {
         self.0.as_ref().map_or(Estimate { position: truth, sigma: 0.0 }, |own| own.navigator.estimate())
     }
+}
+
+/// Two numbers of a stream at a tick.
+fn pair(noise: Noise, tick: u64) -> Vector {
+    Vector::new(noise.gaussian(2 * tick), noise.gaussian(2 * tick + 1))
 }
 
 /// What a fix is off by beside its noise, m: the way of the transponders, and now and then a reflection.
@@ -178,10 +212,26 @@ const GPS_BIAS_MAX: f64 = 1000.0;
 
 #[cfg(test)]
 mod tests {
+    use super::super::inertial::departure;
     use super::*;
+    use crate::craft::hull::StartPose;
 
     /// Dead reckoning with a perfect velocity.
     const PERFECT: NavigatorSetup = NavigatorSetup::DeadReckoning { walk: 0.0 };
+
+    /// Begins at the origin.
+    fn begun(navigation: &Navigation, gps: Option<&Gps>, seed: u64) -> Positioning {
+        let departure = departure(&InstrumentSetup::default(), None, &StartPose::default(), 1.0, seed);
+        Positioning::new(Some(navigation), gps, &departure, seed)
+    }
+
+    /// A tick.
+    fn step(own: &mut Positioning, tick: u64, measured: Option<Vector>, position: Point, depth: f64) {
+        let mut raw = Vec::new();
+        own.reckon(tick, measured, Heading::NORTH);
+        own.measure(tick, position, depth, &mut raw);
+        own.take(&raw);
+    }
 
     /// Over many runs: the error before the first fix is the walk's, after it the fix's, and sigma tells both.
     #[test]
@@ -190,11 +240,11 @@ mod tests {
         let mut errors = [0.0; 2];
         let mut sigmas = [0.0; 2];
         for seed in 0..400 {
-            let mut own = Positioning::new(Some(&navigation), None, Point::ORIGIN, seed);
+            let mut own = begun(&navigation, None, seed);
             let velocity = Vector::new(2.0, 0.0);
             for tick in 1..=1200 {
                 let truth = Point::new(0.2 * tick as f64, 0.0);
-                own.step(tick, Some(velocity), Heading::NORTH, truth, 3.0);
+                step(&mut own, tick, Some(velocity), truth, 3.0);
                 if tick >= 1199 {
                     let Estimate { position, sigma } = own.belief(truth);
                     let error = position - truth;
@@ -211,9 +261,9 @@ mod tests {
 
     /// Where a vehicle at rest believes to be after each fix.
     fn believed(lbl: Option<Lbl>, gps: Option<&Gps>, depth: f64) -> Vec<Vector> {
-        let mut own = Positioning::new(Some(&Navigation { navigator: PERFECT, lbl }), gps, Point::ORIGIN, 5);
+        let mut own = begun(&Navigation { navigator: PERFECT, lbl }, gps, 5);
         let fixes = (1..=60_000).filter_map(|tick| {
-            own.step(tick, Some(Vector::ZERO), Heading::NORTH, Point::ORIGIN, depth);
+            step(&mut own, tick, Some(Vector::ZERO), Point::ORIGIN, depth);
             (tick % 10 == 0).then(|| own.belief(Point::ORIGIN).position - Point::ORIGIN)
         });
         fixes.collect()
@@ -235,11 +285,11 @@ mod tests {
     fn a_late_fix_is_of_where_the_vehicle_was() {
         let lbl = Lbl { every: 10.0, sigma: 0.0, delay: 2.0, ..Lbl::default() };
         let mut own =
-            Positioning::new(Some(&Navigation { navigator: PERFECT, lbl: Some(lbl) }), None, Point::ORIGIN, 1);
+            begun(&Navigation { navigator: PERFECT, lbl: Some(lbl) }, None, 1);
         let at = |tick: u64| Point::new(0.2 * tick as f64, 0.0);
         let errors: Vec<f64> = (1..=130)
             .map(|tick| {
-                own.step(tick, Some(Vector::new(2.0, 0.0)), Heading::NORTH, at(tick), 3.0);
+                step(&mut own, tick, Some(Vector::new(2.0, 0.0)), at(tick), 3.0);
                 (own.belief(at(tick)).position - at(tick)).north
             })
             .collect();
@@ -259,9 +309,9 @@ mod tests {
 
     #[test]
     fn without_a_velocity_the_last_one_holds() {
-        let mut own = Positioning::new(Some(&Navigation { navigator: PERFECT, lbl: None }), None, Point::ORIGIN, 1);
-        (1..=10).for_each(|tick| own.step(tick, Some(Vector::new(2.0, 0.0)), Heading::NORTH, Point::ORIGIN, 3.0));
-        (11..=20).for_each(|tick| own.step(tick, None, Heading::NORTH, Point::ORIGIN, 3.0));
+        let mut own = begun(&Navigation { navigator: PERFECT, lbl: None }, None, 1);
+        (1..=10).for_each(|tick| step(&mut own, tick, Some(Vector::new(2.0, 0.0)), Point::ORIGIN, 3.0));
+        (11..=20).for_each(|tick| step(&mut own, tick, None, Point::ORIGIN, 3.0));
         assert!(own.belief(Point::ORIGIN).position.distance(Point::new(4.0, 0.0)) < 1e-9);
     }
 }

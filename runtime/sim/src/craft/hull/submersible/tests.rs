@@ -41,7 +41,7 @@ impl Trial {
     fn obey(&mut self, command: Option<Command>, seconds: f64) -> Vec<Motion> {
         (0..(seconds / TICK_S).round() as u64)
             .map(|tick| {
-                self.hull.step(tick, command.as_ref(), self.flow, self.bottom).unwrap();
+                self.hull.step(tick, command.as_ref(), self.flow, self.bottom, None).unwrap();
                 *self.hull.motion()
             })
             .collect()
@@ -246,7 +246,7 @@ fn equations_that_run_away_are_an_error_and_no_number() {
         let command = |heading| Command::new(Heading::from_degrees(heading), 80.0, Vertical::Depth(9.0));
         let ran_away = (0..600_u32).find_map(|tick| {
             let told = command(f64::from(tick) * 7.0);
-            trial.hull.step(u64::from(tick), Some(&told), Vector::ZERO, trial.bottom).err()
+            trial.hull.step(u64::from(tick), Some(&told), Vector::ZERO, trial.bottom, None).err()
         });
         assert!(ran_away.is_some_and(|why| why.to_string().contains("take a shorter `step`")));
         let Motion { position, depth, speed, .. } = *trial.hull.motion();

@@ -1,0 +1,233 @@
+//! The instruments of inertial navigation together: what they tell in a tick, and what a navigator is given of it.
+
+use super::{AttitudeSensor, Compass, Imu, InstrumentSetup};
+use super::attitude::AttitudeGauge;
+use super::dvl::Dvl;
+use super::imu::InertialUnit;
+use super::pressure::Pressure;
+use super::raw::{RawSample, RawSensor};
+use super::receivers::ReceiverArray;
+use crate::craft::hull::{StartPose, State, Track, attitude_of};
+use crate::noise::Noise;
+use crate::scenario::{ScenarioIssues, number};
+use crate::world::World;
+use crate::world::sound::sound_speed;
+use crate::world::transponder::Transponder;
+use albacore_geometry::{Attitude, Point, Vector};
+use albacore_navigation::ukf::{Aiding, Ins15Setup, InsState, Velocity};
+use albacore_navigation::{Departure, Inertial, Navigator, Raw};
+use albacore_vehicle::TICK_S;
+use albacore_vehicle::rate::is_due;
+
+/// What is measured without noise counts as measured this well, m of water and m/s: a filter has to weigh it.
+const DEPTH_SIGMA_MIN: f64 = 0.005;
+const VELOCITY_SIGMA_MIN: f64 = 0.005;
+/// A bias is not known better than this when a run begins, rad/s and m/s2.
+const GYRO_BIAS_SIGMA_MIN: f64 = 1e-3;
+const ACCELEROMETER_BIAS_SIGMA_MIN: f64 = 1e-2;
+/// How well depth and velocity are known when a run begins, m and m/s.
+const START_DEPTH_SIGMA: f64 = 0.1;
+const START_VELOCITY_SIGMA: f64 = 0.5;
+/// How fast sound is taken to be where nothing tells it, m/s.
+const SOUND_SPEED: f64 = 1500.0;
+
+/// The instruments of a run.
+#[derive(Clone, Debug)]
+pub struct InertialSuite {
+    unit: InertialUnit,
+    attitude: AttitudeGauge,
+    pressure: Pressure,
+    pressure_noise: Noise,
+    dvl: Dvl,
+    dvl_noise: Noise,
+    receivers: Option<ReceiverArray>,
+    /// How fast sound is taken to be; none: as the CTD tells it.
+    sound_speed: Option<f64>,
+    /// What a metre of water weighs on a square metre, Pa, and where the gauge is aboard, m, body.
+    weight: f64,
+    gauge: [f64; 3],
+}
+
+/// What the filter is told of the instruments of a scenario.
+fn filter_setup(setup: &InstrumentSetup, transponder: Option<&Transponder>) -> Ins15Setup {
+    let told = Ins15Setup::default();
+    let weight = told.density * told.gravity;
+    let receivers = setup.inverted_usbl.as_ref();
+    Ins15Setup {
+        gyro_sigma: setup.imu.gyro_noise,
+        accelerometer_sigma: setup.imu.accelerometer_noise,
+        attitude_sigma: setup.attitude.sigma(),
+        pressure_sigma: weight * setup.pressure.noise.max(DEPTH_SIGMA_MIN),
+        arrival_sigma: receivers.map_or(told.arrival_sigma, |receivers| receivers.sigma()),
+        sound_speed: receivers.and_then(|receivers| receivers.sound_speed).unwrap_or(SOUND_SPEED),
+        transponder: transponder.map_or(told.transponder, |transponder| transponder.place(0.0)),
+        ..told
+    }
+}
+
+/// What a navigator begins with: the start of a run as it is known, and the instruments. The errors of the start are drawn.
+pub fn departure(
+    setup: &InstrumentSetup,
+    transponder: Option<&Transponder>,
+    start: &StartPose,
+    start_sigma: f64,
+    seed: u64,
+) -> Departure {
+    let imu = &setup.imu;
+    let sigma = InsState {
+        attitude: setup.attitude.sigma(),
+        gyro_bias: [imu.gyro_bias.abs().max(GYRO_BIAS_SIGMA_MIN); 3],
+        position: [start_sigma, start_sigma, START_DEPTH_SIGMA],
+        velocity: [START_VELOCITY_SIGMA; 3],
+        accelerometer_bias: [imu.accelerometer_bias.abs().max(ACCELEROMETER_BIAS_SIGMA_MIN); 3],
+    };
+    let noise = Noise::named(seed, "inertial start");
+    let off = |truth: [f64; 3], sigma: [f64; 3], index: u64| {
+        std::array::from_fn(|i| truth[i] + sigma[i] * noise.gaussian(index + i as u64))
+    };
+    let Point { north, east } = start.position;
+    let state = InsState {
+        attitude: off([0.0, 0.0, start.heading.radians()], sigma.attitude, 0),
+        position: off([north, east, start.depth], sigma.position, 3),
+        ..InsState::default()
+    };
+    Departure { position: start.position, state, sigma, setup: filter_setup(setup, transponder) }
+}
+
+impl InertialSuite {
+    /// Those of a run.
+    pub fn new(setup: &InstrumentSetup, seed: u64) -> Self {
+        let told = Ins15Setup::default();
+        InertialSuite {
+            unit: InertialUnit::new(&setup.imu, seed),
+            attitude: AttitudeGauge::new(&setup.attitude, seed),
+            pressure: setup.pressure.clone(),
+            pressure_noise: Noise::named(seed, "raw pressure"),
+            dvl: setup.dvl.clone(),
+            dvl_noise: Noise::named(seed, "raw velocity"),
+            receivers: setup.inverted_usbl.as_ref().map(|own| ReceiverArray::new(own, told.receivers, seed)),
+            sound_speed: match &setup.inverted_usbl {
+                Some(receivers) if setup.ctd.is_some() => receivers.sound_speed,
+                _ => Some(SOUND_SPEED),
+            },
+            weight: told.density * told.gravity,
+            gauge: told.pressure_sensor,
+        }
+    }
+
+    /// Adds what they tell in a tick in which the hull moved so and came to an altitude, m.
+    pub fn measure(&self, tick: u64, track: &Track, altitude: f64, world: &World, raw: &mut Vec<RawSample>) {
+        self.unit.measure(tick, track, raw);
+        let Some(state) = track.states.last() else { return };
+        let step = self.unit.samples().0.saturating_sub(1) as u16;
+        self.attitude.measure(tick, state, step, raw);
+        self.measure_depth(tick, state, step, altitude, world, raw);
+        self.measure_velocity(tick, state, step, altitude, raw);
+        if let Some(receivers) = &self.receivers {
+            receivers.measure(tick, state, step, world, raw);
+        }
+    }
+
+    /// Eq. (8), as metres of water.
+    fn measure_depth(
+        &self,
+        tick: u64,
+        state: &State,
+        step: u16,
+        altitude: f64,
+        world: &World,
+        raw: &mut Vec<RawSample>,
+    ) {
+        let s = &self.pressure;
+        if !is_due(s.rate, tick) {
+            return;
+        }
+        let [north, east, depth, _, _, _] = state.pose.into();
+        let [_, _, below] = attitude_of(&state.pose).to_ned(self.gauge);
+        let waves = world.wave_head(Point::new(north, east), altitude, tick as f64 * TICK_S);
+        let told = depth + below + waves + s.bias + s.noise * self.pressure_noise.gaussian(tick);
+        raw.push(RawSample::new(RawSensor::Pressure, step, [told]));
+    }
+
+    /// Eq. (9).
+    fn measure_velocity(&self, tick: u64, state: &State, step: u16, altitude: f64, raw: &mut Vec<RawSample>) {
+        let s = &self.dvl;
+        if !is_due(s.rate, tick) || s.range.is_some_and(|range| altitude > range) {
+            return;
+        }
+        let bias = [s.bias, 0.0, 0.0];
+        let told =
+            |i: usize| state.velocity[i] + bias[i] + s.noise * self.dvl_noise.gaussian(3 * tick + i as u64);
+        raw.push(RawSample::new(RawSensor::DopplerLog, step, std::array::from_fn::<f64, 3, _>(told)));
+    }
+
+    /// How fast sound is in the water about the vehicle, as its CTD tells it, where it goes by that.
+    pub fn hear(&self, navigator: &mut Inertial, water: (f64, f64), depth: f64) {
+        if self.sound_speed.is_none() {
+            navigator.hear_at(sound_speed(water.0, water.1, depth));
+        }
+    }
+
+    /// Gives a navigator the samples of a tick as they came.
+    pub fn feed(&self, samples: &[RawSample], navigator: &mut dyn Navigator) {
+        let (steps, time) = self.unit.samples();
+        for step in 0..steps {
+            let of = |sensor| samples.iter().find(|s| s.sensor == sensor && usize::from(s.step) == step);
+            let gyro = of(RawSensor::Gyroscope).map(RawSample::array);
+            let accelerometer = of(RawSensor::Accelerometer).map(RawSample::array);
+            navigator.sense(&Raw::Inertial { gyro, accelerometer, time });
+        }
+        let last = |sensor| samples.iter().rfind(|s| s.sensor == sensor);
+        let sigma = self.dvl.noise.max(VELOCITY_SIGMA_MIN);
+        let variance = sigma * sigma;
+        let noise = [[variance, 0.0, 0.0], [0.0, variance, 0.0], [0.0, 0.0, variance]];
+        let aiding = Aiding {
+            attitude: last(RawSensor::Attitude).map(RawSample::array),
+            pressure: last(RawSensor::Pressure).map(|sample| self.weight * sample.array::<1>()[0]),
+            velocity: last(RawSensor::DopplerLog).map(|sample| Velocity { value: sample.array(), noise }),
+            arrival: self.receivers.as_ref().and_then(|receivers| {
+                last(RawSensor::Receivers).map(|sample| sample.array::<5>().map(|told| receivers.expected(told)))
+            }),
+        };
+        navigator.sense(&Raw::Aiding(aiding));
+    }
+}
+
+/// What of them cannot be, aboard a hull with so many steps a tick.
+pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, steps: u32, issues: &mut ScenarioIssues) {
+    let receivers = setup.inverted_usbl.is_some();
+    issues.of("inverted_usbl").unless(
+        None,
+        !receivers || has_transponder,
+        "these receivers hear nothing: the scenario has no `transponder`",
+        "add `transponder(at: …)` to the scenario, or leave `inverted_usbl` out",
+    );
+    if setup.inertial().is_none() {
+        let mend = "write `navigation(inertial())`, or leave this out";
+        issues.of("inverted_usbl").unless(None, !receivers, "no navigator takes what these receivers hear", mend);
+        issues.of("imu").unless(None, setup.imu == Imu::default(), "no navigator takes what this unit feels", mend);
+        let is_there = setup.attitude != AttitudeSensor::default();
+        issues.of("attitude").unless(None, !is_there, "no navigator takes what this sensor tells", mend);
+        return;
+    }
+    let samples = setup.imu.samples();
+    issues.of("imu").unless(
+        Some("rate"),
+        (steps as usize).is_multiple_of(samples) && (setup.imu.rate * TICK_S - samples as f64).abs() < 1e-9,
+        format!("the hull moves in {steps} steps a tick of 100 ms: an inertial unit of {} Hz does not go into them", number(setup.imu.rate)),
+        "take a rate such as 10, 50 or 100 Hz, or another `step` of the hull",
+    );
+    issues.of("compass").unless(
+        None,
+        setup.compass == Compass::default(),
+        "an inertial navigator has no use for a compass: its heading is that of the `attitude` sensor",
+        "write `attitude(yaw_noise: …)` instead",
+    );
+}
+
+/// The velocity over ground that an inertial navigator believes, m/s toward.
+pub fn ground_velocity(state: &InsState) -> Vector {
+    let [roll, pitch, yaw] = state.attitude;
+    let [north, east, _] = Attitude::of(roll, pitch, yaw).to_ned(state.velocity);
+    Vector::new(north, east)
+}
