@@ -16,8 +16,8 @@ pub use craft::fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use craft::hull;
 pub use craft::payload::Payload;
 pub use craft::sensors::{
-    Adcp, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
-    Played, PlayedSample, Pressure, Sounder, Usbl,
+    Adcp, AttitudeSensor, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Imu, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
+    InvertedUsbl, Played, PlayedSample, Pressure, Sounder, Usbl,
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};
@@ -31,5 +31,6 @@ pub use world::recorded::{Playback, RecordedPlume, Still};
 pub use world::spill::{Outline, Slick, Spill};
 pub use world::stratification::Stratification;
 pub use world::survey::Survey;
+pub use world::transponder::Transponder;
 pub use world::water::{Flow, Meander, Tide, UpperFlow, Waves};
 pub use world::{Environment, EnvironmentSetting, World};

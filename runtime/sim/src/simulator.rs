@@ -13,7 +13,7 @@ use albacore_geometry::{Point, Vector};
 use albacore_navigation::Estimate;
 use albacore_vehicle::measurements::VEHICLE_MODE;
 use albacore_vehicle::{
-    Beyond, Command, Control, LimitWatch, Limits, Measurement, REQUEST_TICKS, Snapshot, TICK_S, Truth, Vehicle,
+    Beyond, Command, Control, LimitWatch, Limits, Measurement, NavigationErrors, REQUEST_TICKS, Snapshot, TICK_S, Truth, Vehicle,
     VehicleError, Vertical,
 };
 
@@ -100,6 +100,11 @@ impl Simulator {
     /// What is so at the tick last sensed.
     pub fn truth(&self) -> Truth {
         self.truth
+    }
+
+    /// What the vehicle's inertial navigator believes beside what is so, where it has one.
+    pub fn navigation(&self) -> Option<NavigationErrors> {
+        self.instruments.navigation_errors(self.track.as_ref()?.states.last()?)
     }
 
     /// Seconds since tick 0, at the tick last sensed.

@@ -6,12 +6,14 @@
 mod command;
 mod limits;
 pub mod measurements;
+mod navigation_errors;
 mod quantity;
 pub mod rate;
 mod truth;
 
 pub use command::{COMMANDED, Command, Commanded, Vertical};
 pub use limits::{Beyond, LimitWatch, Limits};
+pub use navigation_errors::{NAVIGATION_STATES, NavigationErrors};
 pub use quantity::Quantity;
 pub use truth::Truth;
 

@@ -28,7 +28,9 @@ const FIX_SIGMA_MIN: f64 = 0.01;
 const ATTITUDE_DOUBT: InsState = InsState { attitude: [0.3, 0.3, PI / 4.0], gyro_bias: [0.05; 3], ..NO_DOUBT };
 const DEPTH_DOUBT: InsState = InsState { position: [0.0, 0.0, 2.0], ..NO_DOUBT };
 const VELOCITY_DOUBT: InsState = InsState { velocity: [0.5; 3], accelerometer_bias: [0.1; 3], ..NO_DOUBT };
-const PLACE_DOUBT: InsState = InsState { position: [30.0, 30.0, 0.0], attitude: [0.0, 0.0, 0.2], ..NO_DOUBT };
+const PLACE_DOUBT: InsState = InsState { position: [30.0, 30.0, 0.0], ..NO_DOUBT };
+/// Its next signal finds the place anew.
+const LOST_DOUBT: InsState = InsState { position: [1000.0, 1000.0, 0.0], ..NO_DOUBT };
 const NO_DOUBT: InsState = InsState {
     attitude: [0.0; 3],
     gyro_bias: [0.0; 3],
@@ -59,7 +61,8 @@ impl Source {
     }
 }
 
-/// Normalised innovations squared of what came last, each a mean over its numbers: 1 on average where the filter is right.
+/// Normalised innovations squared of what came last, each a mean over its numbers: 1 on average where the filter is right. None where
+/// nothing came.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Nis {
     /// Of the attitude, 3 numbers.
@@ -122,7 +125,7 @@ impl Inertial {
             arrival: Some(GATE_5),
         };
         Ok(Inertial {
-            filter: Ins15::new(Ins15Setup { gates, arrival_sigma, ..*setup }, state, sigma)?,
+            filter: Ins15::new(Ins15Setup { gates, arrival_sigma, finds: true, ..*setup }, state, sigma)?,
             time: 0.0,
             rates: [0.0; 3],
             gyro: Unit::new("gyroscope"),
@@ -145,6 +148,11 @@ impl Inertial {
     /// The standard deviations of the errors to expect.
     pub fn sigma(&self) -> InsState {
         self.filter.sigma()
+    }
+
+    /// The error of a state by the covariance: 15 on average where the filter is right.
+    pub fn nees(&self, error: &[f64; 15]) -> f64 {
+        self.filter.filter().normalised(&(*error).into())
     }
 
     /// Rates of turn without their bias, rad/s, body.
@@ -185,18 +193,12 @@ impl Inertial {
     /// What aids it at the moment to which it has gone on.
     fn aid(&mut self, aiding: &Aiding) {
         let told = self.filter.aid(aiding);
-        if let Some(told) = told.attitude {
-            self.nis.attitude = self.judge(Source::Attitude, told);
-        }
-        if let Some(told) = told.pressure {
-            self.nis.pressure = self.judge(Source::Pressure, told);
-        }
-        if let Some(told) = told.velocity {
-            self.nis.velocity = self.judge(Source::Velocity, told);
-        }
-        if let Some(told) = told.arrival {
-            self.nis.arrival = self.judge(Source::Receivers, told);
-        }
+        self.nis = Nis {
+            attitude: told.attitude.and_then(|told| self.judge(Source::Attitude, told)),
+            pressure: told.pressure.and_then(|told| self.judge(Source::Pressure, told)),
+            velocity: told.velocity.and_then(|told| self.judge(Source::Velocity, told)),
+            arrival: told.arrival.and_then(|told| self.judge(Source::Receivers, told)),
+        };
     }
 
     fn agreement(&mut self, source: Source) -> &mut Agreement {
@@ -229,7 +231,8 @@ impl Inertial {
                 // A log that disagrees while positions agree is the one that is wrong.
                 Source::Velocity if is_placed => NO_DOUBT,
                 Source::Velocity => VELOCITY_DOUBT,
-                Source::Receivers | Source::Fixes => PLACE_DOUBT,
+                Source::Receivers => LOST_DOUBT,
+                Source::Fixes => PLACE_DOUBT,
             };
             let _ = self.filter.doubt(&doubt);
         }

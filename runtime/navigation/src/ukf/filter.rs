@@ -117,6 +117,11 @@ impl<const N: usize> Ukf<N> {
         self.covariance[state][state]
     }
 
+    /// The square of an error by the covariance (NEES): chi-square with `N` degrees of freedom if the filter is right.
+    pub fn normalised(&self, error: &SVector<f64, N>) -> f64 {
+        solve(&self.factor, column(error)).iter().map(|x| x * x).sum()
+    }
+
     /// The lower Cholesky factor of the covariance.
     pub fn factor(&self) -> SMatrix<f64, N, N> {
         matrix(self.factor)

@@ -5,6 +5,7 @@
 //! with z. Prediction is Euler's method on Eq. (14), once for each sample of the inertial unit.
 
 mod attitude;
+mod bearing;
 mod kinematics;
 mod setup;
 
@@ -13,6 +14,7 @@ pub use setup::{Ins15Gates, Ins15Setup};
 use super::component::Component;
 use super::filter::{Innovation, Measurement, Ukf, UkfError};
 use attitude::Trigonometry;
+use bearing::Bearing;
 use kinematics::{ATTITUDE, POSITION, StepSigmas, VELOCITY, at_rest, derivative, part, process_noise};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -76,6 +78,9 @@ pub struct Aided {
     /// Of the times of arrival, as ranges, m.
     pub arrival: Option<Result<Innovation<5>, UkfError>>,
 }
+
+/// The place is not known where its standard deviation is more than this share of the range to the transponder.
+const LOST: f64 = 0.1;
 
 /// The filter of Sec. 3: Algorithm 1, lines 4 to 18.
 #[derive(Clone, Debug, PartialEq)]
@@ -216,18 +221,55 @@ impl Ins15 {
     }
 
     /// Eq. (12) and (13) without the counting of the clock, as ranges: in metres all numbers are of a size.
+    ///
+    /// Ranges to a millimetre are no straight function of a place that is hardly known. With [`Ins15Setup::finds`], where the place is not
+    /// known to a tenth of the range, the signal itself is turned into a place ([`Bearing`]), as well as that is known by it and the
+    /// attitude.
     fn take_arrival(&mut self, times: [f64; 5]) -> Result<Innovation<5>, UkfError> {
         let setup = &self.setup;
+        let sigma = setup.arrival_sigma * setup.sound_speed;
         let measurement = Measurement {
             value: times.map(|time| time * setup.sound_speed).into(),
-            noise: diagonal([setup.arrival_sigma * setup.sound_speed; 5]),
+            noise: diagonal([sigma; 5]),
             components: [Component::Line; 5],
             gate: setup.gates.arrival,
         };
+        let ranges: [f64; 5] = measurement.value.into();
+        let is_lost = self.horizontal_variance().sqrt() > LOST * ranges[0];
+        match Bearing::of(&ranges, &setup.receivers, sigma).filter(|_| setup.finds && is_lost) {
+            Some(bearing) => self.find(&bearing, &measurement),
+            None => self.take_ranges(&measurement),
+        }
+    }
+
+    /// Takes the place from which a transponder bears so. What comes of it is told as of the ranges that it is made of: two of their five
+    /// numbers are what they disagree in.
+    fn find(&mut self, bearing: &Bearing, ranges: &Measurement<5>) -> Result<Innovation<5>, UkfError> {
+        // A look at what was expected: nothing is below this gate.
+        let look = self.take_ranges(&Measurement { gate: Some(-1.0), ..*ranges })?;
+        let gated = ranges.gate.is_some_and(|gate| bearing.residual > gate);
+        if !gated {
+            let attitude = Trigonometry::default().of(self.filter.state());
+            let place = Vector3::from(self.setup.transponder) - Vector3::from(attitude.to_ned(bearing.way.into()));
+            let turned = (0..3).map(|i| self.filter.variance(ATTITUDE + i)).fold(0.0, f64::max);
+            let variance = bearing.across() + turned * bearing.way.norm_squared();
+            self.take_fix([place.x, place.y], variance.sqrt(), None)?;
+        }
+        Ok(Innovation { nis: bearing.residual * 2.5, gated, ..look })
+    }
+
+    /// The greater of the variances of north and east, m2.
+    fn horizontal_variance(&self) -> f64 {
+        self.filter.variance(POSITION).max(self.filter.variance(POSITION + 1))
+    }
+
+    /// Ranges to the receivers.
+    fn take_ranges(&mut self, measurement: &Measurement<5>) -> Result<Innovation<5>, UkfError> {
+        let setup = &self.setup;
         let transponder = Vector3::from(setup.transponder);
         let receivers = setup.receivers;
         let mut angles = Trigonometry::default();
-        self.filter.update(&measurement, |state| {
+        self.filter.update(measurement, |state| {
             let (angles, centre) = (angles.of(state), part(state, POSITION) - transponder);
             receivers.map(|receiver| (centre + Vector3::from(angles.to_ned(receiver))).norm()).into()
         })

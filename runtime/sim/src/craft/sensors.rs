@@ -43,14 +43,14 @@ pub(crate) use sounder::water_depth;
 pub use usbl::Usbl;
 
 use crate::craft::fault::Faults;
-use crate::craft::hull::{Motion, StartPose};
+use crate::craft::hull::{Motion, StartPose, State};
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
 use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::{Estimate, Inertial, InertialSettings};
-use albacore_vehicle::{Limits, Measurement, Snapshot, TICK_S, Truth, measurements};
+use albacore_vehicle::{Limits, Measurement, NavigationErrors, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
 use ctd::CtdProbe;
@@ -299,6 +299,11 @@ impl Instruments {
     /// All that an inertial navigator believes, where the vehicle has one.
     pub fn inertial(&self) -> Option<&Inertial> {
         self.navigation.inertial()
+    }
+
+    /// How far it is off, of a hull in a state.
+    pub fn navigation_errors(&self, state: &State) -> Option<NavigationErrors> {
+        self.navigation.errors(state)
     }
 
     /// What the navigation has noticed since this was last asked.

@@ -60,6 +60,11 @@ impl InertialUnit {
         (samples, TICK_S / samples as f64)
     }
 
+    /// The constant errors of a gyroscope (rad/s) and of an accelerometer (m/s2).
+    pub fn biases(&self) -> (f64, f64) {
+        (self.settings.gyro_bias, self.settings.accelerometer_bias)
+    }
+
     /// What it tells in a tick in which the hull moved so: Eq. (4) and (6), each sample the mean over its time.
     pub fn measure(&self, tick: u64, track: &Track, raw: &mut Vec<RawSample>) {
         let s = &self.settings;

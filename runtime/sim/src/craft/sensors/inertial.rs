@@ -13,10 +13,10 @@ use crate::scenario::{ScenarioIssues, number};
 use crate::world::World;
 use crate::world::sound::sound_speed;
 use crate::world::transponder::Transponder;
-use albacore_geometry::{Attitude, Point, Vector};
+use albacore_geometry::{Attitude, Point, Vector, wrap_angle};
 use albacore_navigation::ukf::{Aiding, Ins15Setup, InsState, Velocity};
 use albacore_navigation::{Departure, Inertial, Navigator, Raw};
-use albacore_vehicle::TICK_S;
+use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors, TICK_S};
 use albacore_vehicle::rate::is_due;
 
 /// What is measured without noise counts as measured this well, m of water and m/s: a filter has to weigh it.
@@ -168,6 +168,32 @@ impl InertialSuite {
         }
     }
 
+    /// How far a navigator is off, of a hull in a state.
+    pub fn errors(&self, navigator: &Inertial, state: &State) -> NavigationErrors {
+        let (gyro_bias, accelerometer_bias) = self.unit.biases();
+        let [north, east, down, roll, pitch, yaw] = state.pose.into();
+        let [u, v, w, ..] = std::array::from_fn::<f64, 6, _>(|i| state.velocity[i]);
+        let truth = InsState {
+            attitude: [roll, pitch, yaw],
+            gyro_bias: [gyro_bias; 3],
+            position: [north, east, down],
+            velocity: [u, v, w],
+            accelerometer_bias: [accelerometer_bias; 3],
+        };
+        let (believed, sigma) = (numbers(&navigator.state()), numbers(&navigator.sigma()));
+        let truth = numbers(&truth);
+        let mut error = std::array::from_fn(|i| believed[i] - truth[i]);
+        error[2] = wrap_angle(error[2]);
+        let nis = navigator.nis();
+        NavigationErrors {
+            error,
+            sigma,
+            north_east: navigator.filter().filter().covariance()[(6, 7)],
+            nees: navigator.nees(&error) / NAVIGATION_STATES as f64,
+            nis: [nis.attitude, nis.pressure, nis.velocity, nis.arrival],
+        }
+    }
+
     /// Gives a navigator the samples of a tick as they came.
     pub fn feed(&self, samples: &[RawSample], navigator: &mut dyn Navigator) {
         let (steps, time) = self.unit.samples();
@@ -223,6 +249,13 @@ pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, steps: u32, 
         "an inertial navigator has no use for a compass: its heading is that of the `attitude` sensor",
         "write `attitude(yaw_noise: …)` instead",
     );
+}
+
+/// The states in the order of [`NavigationErrors`].
+fn numbers(state: &InsState) -> [f64; NAVIGATION_STATES] {
+    let parts =
+        [state.attitude, state.gyro_bias, state.position, state.velocity, state.accelerometer_bias];
+    std::array::from_fn(|i| parts[i / 3][i % 3])
 }
 
 /// The velocity over ground that an inertial navigator believes, m/s toward.

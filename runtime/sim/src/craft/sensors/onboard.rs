@@ -8,12 +8,12 @@ use super::positioning::Positioning;
 use super::raw::RawSample;
 use super::{Instrument, InstrumentSetup, Surroundings};
 use crate::craft::fault::Faults;
-use crate::craft::hull::{Motion, StartPose, Track};
+use crate::craft::hull::{Motion, StartPose, State, Track};
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::{Estimate, Inertial, InertialSettings};
 use albacore_vehicle::measurements::{COURSE, DEPTH, HEADING, POSITION, SPEED};
-use albacore_vehicle::{Snapshot, TICK_S};
+use albacore_vehicle::{NavigationErrors, Snapshot, TICK_S};
 
 /// Compass, Doppler log and position, of which each needs another.
 #[derive(Clone, Debug)]
@@ -73,6 +73,11 @@ impl OnboardNavigation {
     /// All that it believes, where it is inertial.
     pub fn inertial(&self) -> Option<&Inertial> {
         self.positioning.inertial()
+    }
+
+    /// How far that is off, of a hull in a state.
+    pub fn errors(&self, state: &State) -> Option<NavigationErrors> {
+        Some(self.suite.as_ref()?.errors(self.inertial()?, state))
     }
 
     /// What it has noticed since this was last asked.
