@@ -54,6 +54,8 @@ impl Dimension {
     pub const SALINITY: Dimension = Dimension::of([0, 0, 0, 0, 0, 2, 0]);
     /// Metres per second.
     pub const SPEED: Dimension = Dimension::of([2, -2, 0, 0, 0, 0, 0]);
+    /// Metres per second squared.
+    pub const ACCELERATION: Dimension = Dimension::of([2, -4, 0, 0, 0, 0, 0]);
     /// Radians per second.
     pub const TURN_RATE: Dimension = Dimension::of([0, -2, 2, 0, 0, 0, 0]);
     /// Hertz.

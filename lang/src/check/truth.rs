@@ -27,6 +27,8 @@ const SPEED_MAX: f64 = 1e4;
 const NO_SOURCE: &str = "the scenario has no source";
 /// What is said without a spill.
 const NO_SPILL: &str = "the scenario has no spill whose outline makes an area";
+/// What is said of a vehicle whose navigation is not inertial, and before its first second.
+const NO_NAVIGATOR: &str = "the vehicle has no inertial navigator";
 /// What is said without a beacon.
 const NO_BEACON: &str = "the scenario has no beacon";
 /// What is said without a deepest point.
@@ -124,7 +126,10 @@ impl<'t> Checker<'t> {
                 return Some(self.taken_for_granted(id, NO_BEACON.to_string(), span));
             }
             ("truth", other) => match TrueInput::ALL.into_iter().find(|input| input.name() == other) {
-                Some(input) => self.true_input(input, span),
+                Some(input) => {
+                    let id = self.true_input(input, span);
+                    return Some(self.taken_for_granted(id, NO_NAVIGATOR.to_string(), span));
+                }
                 None => return Some(self.no_truth(other, member.span, span)),
             },
             _ => return None,

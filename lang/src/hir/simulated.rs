@@ -120,7 +120,8 @@ pub struct TestNames<T> {
 pub const OUTCOMES: [&str; 7] =
     ["completed", "timed_out", "aborted", "refused", "released_by_vehicle", "link_lost", "aground"];
 
-/// What a test asks of how the vehicle truly lies and moves, and of the water there: by the name of the input that tells it with errors.
+/// What a test asks of how the vehicle truly lies and moves, and of the water there: by the name of the input that tells it with errors; and
+/// how far off the vehicle's navigation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "each variant is what it says")]
 pub enum TrueInput {
@@ -133,11 +134,19 @@ pub enum TrueInput {
     Salinity,
     Chemical,
     Flow,
+    PositionError,
+    HeadingError,
+    RollError,
+    PitchError,
+    DepthError,
+    GyroBiasError,
+    AccelerometerBiasError,
+    PositionSigma,
 }
 
 impl TrueInput {
     /// All of them.
-    pub const ALL: [TrueInput; 9] = [
+    pub const ALL: [TrueInput; 17] = [
         TrueInput::Depth,
         TrueInput::Altitude,
         TrueInput::Heading,
@@ -147,6 +156,14 @@ impl TrueInput {
         TrueInput::Salinity,
         TrueInput::Chemical,
         TrueInput::Flow,
+        TrueInput::PositionError,
+        TrueInput::HeadingError,
+        TrueInput::RollError,
+        TrueInput::PitchError,
+        TrueInput::DepthError,
+        TrueInput::GyroBiasError,
+        TrueInput::AccelerometerBiasError,
+        TrueInput::PositionSigma,
     ];
 
     /// As it stands after `truth`.
@@ -161,11 +178,20 @@ impl TrueInput {
             TrueInput::Salinity => "salinity",
             TrueInput::Chemical => "chemical",
             TrueInput::Flow => "flow",
+            TrueInput::PositionError => "position_error",
+            TrueInput::HeadingError => "heading_error",
+            TrueInput::RollError => "roll_error",
+            TrueInput::PitchError => "pitch_error",
+            TrueInput::DepthError => "depth_error",
+            TrueInput::GyroBiasError => "gyro_bias_error",
+            TrueInput::AccelerometerBiasError => "accelerometer_bias_error",
+            TrueInput::PositionSigma => "position_sigma",
         }
     }
 
     /// The type of its value.
-    pub const fn ty(self) -> Type {
+    pub fn ty(self) -> Type {
+        let of_navigator = |dimension| Type::Quantity(dimension).optional();
         match self {
             TrueInput::Depth | TrueInput::Altitude => Type::Quantity(Dimension::LENGTH),
             TrueInput::Heading | TrueInput::Course => Type::Heading,
@@ -174,6 +200,11 @@ impl TrueInput {
             TrueInput::Salinity => Type::Quantity(Dimension::SALINITY),
             TrueInput::Chemical => Type::Quantity(Dimension::NONE),
             TrueInput::Flow => Type::Vector(Dimension::SPEED),
+            TrueInput::PositionError => Type::Quantity(Dimension::LENGTH),
+            TrueInput::HeadingError | TrueInput::RollError | TrueInput::PitchError => of_navigator(Dimension::ANGLE),
+            TrueInput::DepthError | TrueInput::PositionSigma => of_navigator(Dimension::LENGTH),
+            TrueInput::GyroBiasError => of_navigator(Dimension::TURN_RATE),
+            TrueInput::AccelerometerBiasError => of_navigator(Dimension::ACCELERATION),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod cell;
 mod columns;
+mod navigation_columns;
 mod order;
 mod paired;
 mod picture;
@@ -65,7 +66,9 @@ impl Campaign {
     /// A campaign of cases, whose rows begin with the first seed. `swept` names the columns of what a sweep changes; of each report's name
     /// there are columns for so many.
     pub fn new(cases: Vec<Case>, swept: &[String], reports: usize, first_seed: u64) -> Self {
-        let programs: Vec<&Program> = cases.iter().map(|case| &*case.plan.program).collect();
+        let is_inertial = |case: &Case| case.plan.scenario.instruments.inertial().is_some();
+        let programs: Vec<(&Program, bool)> =
+            cases.iter().map(|case| (&*case.plan.program, is_inertial(case))).collect();
         let columns = Columns::new(&programs, swept, reports);
         let order = RowOrder { first_seed, cases: cases.len() as u64 };
         Campaign { cases, columns, order }

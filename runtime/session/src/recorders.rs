@@ -7,6 +7,7 @@ pub(crate) mod digest;
 pub(crate) mod expectations;
 pub(crate) mod exported;
 pub(crate) mod journal;
+mod navigation;
 pub(crate) mod notices;
 pub(crate) mod recorded;
 pub(crate) mod results;

@@ -2,7 +2,7 @@
 
 use albacore_geometry::Point;
 use albacore_sim::Simulator;
-use albacore_vehicle::{Measurement, Truth, Vehicle};
+use albacore_vehicle::{Measurement, NavigationErrors, Truth, Vehicle};
 
 /// A vehicle and what is known of it besides.
 pub(crate) enum RunVehicle {
@@ -33,6 +33,14 @@ impl RunVehicle {
     pub fn truth(&self) -> Option<Truth> {
         match self {
             RunVehicle::Simulated(simulator) => Some(simulator.truth()),
+            RunVehicle::Linked(_) => None,
+        }
+    }
+
+    /// How far off its inertial navigator is, where it has one: known in simulation only.
+    pub fn navigation(&self) -> Option<NavigationErrors> {
+        match self {
+            RunVehicle::Simulated(simulator) => simulator.navigation(),
             RunVehicle::Linked(_) => None,
         }
     }

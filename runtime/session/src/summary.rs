@@ -41,6 +41,9 @@ pub struct Summary {
     /// How many reports there were beside those that are listed: of very many only the first are.
     #[serde(skip_serializing_if = "is_zero")]
     pub more_reports: u64,
+    /// How good its inertial navigator was, of a simulated vehicle with one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub navigation: Option<NavigationSummary>,
     /// How many rows were recorded, by a mission that records anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_rows: Option<u64>,
@@ -49,6 +52,31 @@ pub struct Summary {
     pub recorded_rows_left_out: u64,
     /// The digest of the full-rate run.
     pub digest: String,
+}
+
+/// How far off an inertial navigator was, looked at once a second, and whether it knew. Errors but those of the position are of 30 s on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "each field is what it says")]
+pub struct NavigationSummary {
+    pub position_error_mean_m: f64,
+    pub position_error_max_m: f64,
+    pub depth_error_rms_m: f64,
+    pub depth_error_max_m: f64,
+    /// 99 % of the errors are smaller.
+    pub roll_error_99_deg: f64,
+    pub pitch_error_99_deg: f64,
+    pub yaw_error_99_deg: f64,
+    /// The greatest of any axis.
+    pub gyro_bias_error_max_deg_s: f64,
+    pub accelerometer_bias_error_max_m_s2: f64,
+    /// Shares of errors within three of the expected standard deviations: attitude, gyro biases, position, velocity, accelerometer biases.
+    pub within_3_sigma: [f64; 5],
+    /// The error's square by its covariance, of each state: 1 where the filter is right.
+    pub nees: f64,
+    /// The innovations' squares by theirs, of each number: attitude, pressure, velocity, times of arrival.
+    pub nis: [Option<f64>; 4],
+    /// For so long the place was farther off than expected, and nothing was told of it.
+    pub unnoticed_s: f64,
 }
 
 impl Summary {

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 /// The version of this form: one more whenever a record, or what a record holds (such as a snapshot, an event or [`State`]),
 /// is laid out otherwise. Postcard's form names no fields, and would read the older as something else.
-pub const JOURNAL_VERSION: u32 = 6;
+pub const JOURNAL_VERSION: u32 = 7;
 
 /// How every journal begins.
 const MAGIC: [u8; 4] = *b"ALBJ";

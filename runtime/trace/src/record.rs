@@ -6,7 +6,7 @@ use crate::journal::snapshot;
 use albacore_geometry::Point;
 use albacore_machine::{Event, Outcome};
 use albacore_program::{AREA_CORNER_WORDS, ActivityId};
-use albacore_vehicle::{Command, Snapshot, Truth};
+use albacore_vehicle::{Command, NavigationErrors, Snapshot, Truth};
 use serde::{Deserialize, Serialize};
 
 /// One step of a run.
@@ -27,6 +27,8 @@ pub struct TickRecord {
     pub notices: Vec<String>,
     /// What is so, whatever the sensors say: known in simulation only.
     pub truth: Option<Truth>,
+    /// How far off its inertial navigator is, once a second: known in simulation only.
+    pub navigation: Option<Box<NavigationErrors>>,
     /// The words of the mission's areas, one after another: in the first tick that knows them, and at the end again.
     pub areas: Vec<f64>,
     /// Where the mission believes the vehicle to be. It follows from the samples: no journal keeps it.

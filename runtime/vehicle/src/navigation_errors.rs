@@ -20,4 +20,6 @@ pub struct NavigationErrors {
     /// The square of each innovation by its covariance (NIS), of each number, of the tick: attitude, pressure, velocity and times of
     /// arrival; none where nothing came.
     pub nis: [Option<f64>; 4],
+    /// Whether an instrument disagrees with it now, or tells nothing that it needs.
+    pub doubted: bool,
 }

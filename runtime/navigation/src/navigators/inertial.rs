@@ -165,6 +165,12 @@ impl Inertial {
         &self.nis
     }
 
+    /// Whether an instrument disagrees now, or the inertial unit tells nothing.
+    pub fn is_doubted(&self) -> bool {
+        let disagrees = [&self.attitude, &self.pressure, &self.velocity, &self.receivers, &self.fixes];
+        disagrees.into_iter().any(Agreement::disagrees) || self.gyro.is_silent || self.accelerometer.is_silent
+    }
+
     /// The filter itself.
     pub fn filter(&self) -> &Ins15 {
         &self.filter

@@ -2,6 +2,7 @@
 
 use super::Case;
 use super::cell::plain;
+use super::navigation_columns;
 use super::report_columns::{ReportColumns, by_names, parts};
 use crate::recorders::account::behavior_names;
 use crate::summary::{BehaviorSummary, Report, Summary};
@@ -58,6 +59,8 @@ struct CaseColumns {
     behaviors: Vec<String>,
     /// Where in the table each of them stands.
     places: Vec<usize>,
+    /// Whether its vehicle has an inertial navigator.
+    is_inertial: bool,
 }
 
 /// A row: a cell for each column.
@@ -72,12 +75,12 @@ pub struct Row {
 }
 
 impl Columns {
-    /// The columns for the runs of programs, one for each case. What their reports hold has columns for the first report of each name, and for
+    /// The columns for the runs of programs, one for each case, and whether its vehicle has an inertial navigator. What their reports hold has columns for the first report of each name, and for
     /// each further one that is asked for: how often a loop reports shows only when it runs. So have their times and errors, but for those of the
-    /// first report of an only name, which are among the columns of every table. Last come how long each behavior was active, and
-    /// the way meanwhile. Where there are several cases, the case, its mission and what is swept come first, and cases
+    /// first report of an only name, which are among the columns of every table. Then come how long each behavior was active, and
+    /// the way meanwhile, and last how good the navigation was of a vehicle with an inertial navigator. Where there are several cases, the case, its mission and what is swept come first, and cases
     /// share a column that they call alike.
-    pub(super) fn new(programs: &[&Program], swept: &[String], reports_of_each: usize) -> Self {
+    pub(super) fn new(programs: &[(&Program, bool)], swept: &[String], reports_of_each: usize) -> Self {
         let mut taken: BTreeSet<String> = FIXED.map(str::to_string).into();
         let before = if programs.len() > 1 { vec!["case".to_string(), "mission".to_string()] } else { Vec::new() };
         let before = before.into_iter().chain(swept.iter().cloned());
@@ -85,9 +88,9 @@ impl Columns {
         let before = names.len();
         names.extend(FIXED.map(str::to_string));
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
-        let cases = programs.iter().map(|program| {
+        let cases = programs.iter().map(|&(program, is_inertial)| {
             // Of its own columns no two have one name.
-            let (case, own) = CaseColumns::new(program, reports_of_each, names[..before + FIXED.len()].iter().cloned());
+            let (case, own) = CaseColumns::new(program, is_inertial, reports_of_each, names[..before + FIXED.len()].iter().cloned());
             let place = |name: String| {
                 *known.entry(name).or_insert_with_key(|name| {
                     names.push(name.clone());
@@ -180,7 +183,12 @@ impl Columns {
 
 impl CaseColumns {
     /// The columns of a program's runs, and their names, which are none of those that are taken.
-    fn new(program: &Program, reports_of_each: usize, taken: impl Iterator<Item = String>) -> (Self, Vec<String>) {
+    fn new(
+        program: &Program,
+        is_inertial: bool,
+        reports_of_each: usize,
+        taken: impl Iterator<Item = String>,
+    ) -> (Self, Vec<String>) {
         let mut taken: BTreeSet<String> = taken.collect();
         let reported = by_names(&program.reports);
         let has_one_name = reported.len() == 1;
@@ -198,8 +206,11 @@ impl CaseColumns {
         for behavior in &behaviors {
             names.extend(["s", "m"].map(|unit| unused(&mut taken, &format!("{behavior}_{unit}"))));
         }
+        if is_inertial {
+            names.extend(navigation_columns::names().map(|name| unused(&mut taken, name)));
+        }
         let mission = program.mission.name.clone();
-        (CaseColumns { mission, reports, behaviors, places: Vec::new() }, names)
+        (CaseColumns { mission, reports, behaviors, places: Vec::new(), is_inertial }, names)
     }
 
     /// What a run declared: its first report of a place, of a mission that reports a `source` the first of that; of a mission whose reports are of one
@@ -232,6 +243,9 @@ impl CaseColumns {
             let spent = behaviors.get(behavior.as_str());
             cells.push(seconds(Some(spent.map_or(0.0, |spent| spent.time_s))));
             cells.push(metres(Some(spent.map_or(0.0, |spent| spent.path_length_m))));
+        }
+        if self.is_inertial {
+            cells.extend(navigation_columns::cells(run.navigation.as_ref()));
         }
         cells
     }
@@ -290,7 +304,7 @@ mod tests {
     }
 
     fn further(names: &[&str], reports: usize) -> Vec<String> {
-        Columns::new(&[&program(names)], &[], reports).names()[FIXED.len()..].to_vec()
+        Columns::new(&[(&program(names), false)], &[], reports).names()[FIXED.len()..].to_vec()
     }
 
     #[test]
@@ -315,7 +329,7 @@ mod tests {
     #[test]
     fn cases_share_what_they_call_alike() {
         let (one, other) = (program(&["a", "b"]), program(&["seed", "b", "c"]));
-        let columns = Columns::new(&[&one, &other], &["seed".to_string(), "b_t_s".to_string()], 1);
+        let columns = Columns::new(&[(&one, false), (&other, false)], &["seed".to_string(), "b_t_s".to_string()], 1);
         assert_eq!(columns.names()[..4], ["case", "mission", "seed_", "b_t_s"]);
         let further = ["a_t_s", "a_error_m", "b_t_s_", "b_error_m", "seed_t_s", "seed_error_m", "c_t_s", "c_error_m"];
         assert_eq!(columns.names()[4 + FIXED.len()..], further);

@@ -12,7 +12,7 @@ use albacore_machine::{Evaluation, Event, Outcome};
 use albacore_program::{ActivityId, Display, Shape, Text, number};
 use albacore_sim::Scenario;
 use albacore_trace::{Step, TickRecord, areas};
-use albacore_vehicle::{Measurement, Truth, seconds};
+use albacore_vehicle::{Measurement, NavigationErrors, Truth, seconds};
 
 /// Looks on each tick at what is expected always or while a behavior is active, and at the rest when the run is over.
 pub(crate) struct Expectations<'t> {
@@ -21,6 +21,10 @@ pub(crate) struct Expectations<'t> {
     evaluation: Evaluation,
     /// What is truly so of the vehicle and where it is.
     truth: Truth,
+    /// Where the mission believes it to be.
+    believed: Option<Point>,
+    /// How far off its inertial navigator was last.
+    navigation: Option<Box<NavigationErrors>>,
     /// The words of the mission's areas, one after another.
     areas: Vec<f64>,
     /// How often each of what the program asks of payloads was asked.
@@ -65,6 +69,8 @@ impl<'t> Expectations<'t> {
             results,
             evaluation,
             truth: Truth { position: start, ..Truth::default() },
+            believed: None,
+            navigation: None,
             areas: Vec::new(),
             asked: vec![0; plan.program.asks.len()],
             recorded: counts_recorded.then(|| Recorded::new(plan, delivered)),
@@ -192,7 +198,8 @@ impl<'t> Expectations<'t> {
             evaluation.set_area(*slot, OUTLINE_CORNERS, outline.as_ref());
         }
         for (input, slot) in &slots.inputs {
-            evaluation.set(*slot, &true_words(*input, &truth, time, &results.plan.scenario));
+            let known = Known { truth: &truth, believed: self.believed, navigation: self.navigation.as_deref() };
+            evaluation.set(*slot, &true_words(*input, &known, time, &results.plan.scenario));
         }
         evaluation.set(slots.start, &[start.north, start.east]);
         evaluation.set(slots.deepest, &if_any(results.deepest));
@@ -250,6 +257,10 @@ impl Recorder for Expectations<'_> {
             }
         }
         self.truth = record.truth.unwrap_or(self.truth);
+        self.believed = record.believed.or(self.believed);
+        if record.navigation.is_some() {
+            self.navigation.clone_from(&record.navigation);
+        }
         if !record.areas.is_empty() {
             self.areas.clone_from(&record.areas);
         }
@@ -296,8 +307,23 @@ fn is_nearly_round(x: f64) -> bool {
     x != round && (x - round).abs() < 1e-9
 }
 
+/// What is known of a tick beside what the mission knows.
+struct Known<'a> {
+    truth: &'a Truth,
+    /// Where the mission believes the vehicle to be.
+    believed: Option<Point>,
+    navigation: Option<&'a NavigationErrors>,
+}
+
+/// The greatest size of some errors.
+fn greatest(errors: &[f64]) -> f64 {
+    errors.iter().fold(0.0, |most, error| error.abs().max(most))
+}
+
 /// The words of what an input would truly tell at a time (s of the run), in SI units.
-fn true_words(input: TrueInput, truth: &Truth, time: f64, scenario: &Scenario) -> Vec<f64> {
+fn true_words(input: TrueInput, known: &Known, time: f64, scenario: &Scenario) -> Vec<f64> {
+    let truth = known.truth;
+    let of = |value: fn(&NavigationErrors) -> f64| known.navigation.map_or(vec![0.0; 2], |errors| vec![1.0, value(errors)]);
     let layers = || scenario.environment.stratification.at(truth.position, truth.depth, time);
     match input {
         TrueInput::Depth => vec![truth.depth],
@@ -309,6 +335,14 @@ fn true_words(input: TrueInput, truth: &Truth, time: f64, scenario: &Scenario) -
         TrueInput::Salinity => vec![layers().1],
         TrueInput::Chemical => vec![truth.concentration],
         TrueInput::Flow => vec![truth.flow.north, truth.flow.east],
+        TrueInput::PositionError => vec![known.believed.map_or(0.0, |believed| believed.distance(truth.position))],
+        TrueInput::RollError => of(|errors| errors.error[0].abs()),
+        TrueInput::PitchError => of(|errors| errors.error[1].abs()),
+        TrueInput::HeadingError => of(|errors| errors.error[2].abs()),
+        TrueInput::DepthError => of(|errors| errors.error[8].abs()),
+        TrueInput::GyroBiasError => of(|errors| greatest(&errors.error[3..6])),
+        TrueInput::AccelerometerBiasError => of(|errors| greatest(&errors.error[12..15])),
+        TrueInput::PositionSigma => of(|errors| (0.5 * (errors.sigma[6].powi(2) + errors.sigma[7].powi(2))).sqrt()),
     }
 }
 

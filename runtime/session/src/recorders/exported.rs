@@ -2,6 +2,7 @@
 //! in it, those that were withheld and those that others of the same tick came after too, each in columns of its own.
 
 mod columns;
+mod navigation;
 mod sensed;
 
 use super::Recorder;

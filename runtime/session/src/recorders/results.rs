@@ -2,6 +2,7 @@
 
 use super::Recorder;
 use super::account::Account;
+use super::navigation::NavigationAccount;
 use crate::boundary::true_outline;
 use crate::plan::Plan;
 use crate::reported::{Reader, areas, corners, fields};
@@ -164,6 +165,7 @@ pub(crate) struct Results {
     switches: u64,
     odometer: Odometer,
     account: Account,
+    navigation: NavigationAccount,
 }
 
 impl Results {
@@ -184,6 +186,7 @@ impl Results {
             switches: 0,
             odometer: Odometer::new(start),
             account: Account::new(&plan.program),
+            navigation: NavigationAccount::default(),
         }
     }
 
@@ -226,6 +229,7 @@ impl Results {
             behaviors: self.account.behaviors(),
             reports: Vec::new(),
             more_reports: self.reports.more,
+            navigation: self.navigation.summary(),
             recorded_rows: None,
             recorded_rows_left_out: 0,
             digest: self.ending.as_ref().map(|ending| format!("{:016x}", ending.digest)).unwrap_or_default(),
@@ -360,6 +364,9 @@ impl Results {
         self.start = self.start.or(here);
         let way = here.map_or(0.0, |here| self.odometer.reach(here));
         self.account.take(record, way);
+        if let Some(errors) = &record.navigation {
+            self.navigation.take(seconds(record.tick), errors);
+        }
         for event in &record.events {
             match event {
                 Event::Switched { .. } => self.switches += 1,

@@ -21,6 +21,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// A run takes this many ticks at most: ten days.
 const TICKS_MAX: u64 = 8_640_000;
 
+/// Ticks between looks at the navigation: a second.
+const NAVIGATION_TICKS: u64 = 10;
+
 /// Drives a vehicle through a mission.
 pub(crate) struct Driver {
     machine: Machine,
@@ -288,6 +291,9 @@ impl Driver {
     /// How things are after the step.
     fn describe(&mut self, record: &mut TickRecord) {
         record.truth = self.vehicle.truth();
+        if record.tick.is_multiple_of(NAVIGATION_TICKS) {
+            record.navigation = self.vehicle.navigation().map(Box::new);
+        }
         record.believed = self.machine.position();
         record.active = self.machine.active();
         if !self.knows_areas {

@@ -49,7 +49,7 @@ use crate::world::World;
 use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
-use albacore_navigation::{Estimate, Inertial, InertialSettings};
+use albacore_navigation::{Estimate, InertialSettings};
 use albacore_vehicle::{Limits, Measurement, NavigationErrors, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
@@ -190,7 +190,7 @@ impl InstrumentSetup {
     }
 
     /// What its inertial navigator is told, where it has one.
-    pub(crate) fn inertial(&self) -> Option<&InertialSettings> {
+    pub fn inertial(&self) -> Option<&InertialSettings> {
         self.navigation.as_ref().and_then(|navigation| navigation.navigator.inertial())
     }
 
@@ -294,11 +294,6 @@ impl Instruments {
     /// Lets one tick go by.
     pub fn step(&mut self, step: &Step, world: &World, faults: &mut Faults) {
         self.navigation.step(step, world, faults);
-    }
-
-    /// All that an inertial navigator believes, where the vehicle has one.
-    pub fn inertial(&self) -> Option<&Inertial> {
-        self.navigation.inertial()
     }
 
     /// How far it is off, of a hull in a state.

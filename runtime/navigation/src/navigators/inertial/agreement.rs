@@ -95,6 +95,11 @@ impl Agreement {
         persists
     }
 
+    /// Whether it disagrees now.
+    pub fn disagrees(&self) -> bool {
+        self.disagrees
+    }
+
     /// Whether its last sample is no older than this at a time, s, and it agrees.
     pub fn agrees_lately(&self, time: f64, age: f64) -> bool {
         !self.disagrees && self.disagreed == 0.0 && self.last.is_some_and(|last| time - last <= age)

@@ -24,6 +24,8 @@ pub enum Key {
     Behavior,
     /// What is so, by its place among all that is known.
     True(usize),
+    /// What the navigation is off by, by its place among all that is known of that.
+    Navigation(usize),
 }
 
 /// What a column is.

@@ -133,6 +133,9 @@ impl Sensed {
             self.columns.text(Key::Behavior, row, &chain, behavior);
         }
         record.truth.iter().for_each(|truth| self.truth(row, truth));
+        if let Some(errors) = &record.navigation {
+            self.navigation(row, errors);
+        }
     }
 
     fn samples(&mut self, row: usize, samples: &[Sample]) {

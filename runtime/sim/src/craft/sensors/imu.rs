@@ -126,7 +126,7 @@ mod tests {
         let mut raw = Vec::new();
         (0..2000).for_each(|tick| unit.measure(tick, &track, &mut raw));
         let moments = |sensor, axis: usize| {
-            let told: Vec<f64> = raw.iter().filter(|s| s.sensor == sensor).map(|s| s.numbers()[axis]).collect();
+            let told: Vec<f64> = raw.iter().filter(|s| s.sensor == sensor).map(|s| s.array::<3>()[axis]).collect();
             let mean = told.iter().sum::<f64>() / told.len() as f64;
             (mean, (told.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / told.len() as f64).sqrt())
         };

@@ -191,6 +191,7 @@ impl InertialSuite {
             north_east: navigator.filter().filter().covariance()[(6, 7)],
             nees: navigator.nees(&error) / NAVIGATION_STATES as f64,
             nis: [nis.attitude, nis.pressure, nis.velocity, nis.arrival],
+            doubted: navigator.is_doubted(),
         }
     }
 

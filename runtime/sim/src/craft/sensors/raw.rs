@@ -119,12 +119,7 @@ impl RawSample {
         RawSample { sensor, step, numbers }
     }
 
-    /// Its numbers.
-    pub fn numbers(&self) -> &[f64] {
-        &self.numbers[..self.sensor.row().width]
-    }
-
-    /// The same, to be changed.
+    /// Its numbers, to be changed.
     pub fn numbers_mut(&mut self) -> &mut [f64] {
         &mut self.numbers[..self.sensor.row().width]
     }

@@ -1,0 +1,149 @@
+//! How good the navigation of a run was: errors of an inertial navigator against what it expected of them, looked at once a second.
+
+use crate::summary::NavigationSummary;
+use albacore_geometry::math::degrees;
+use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors};
+
+/// Errors count from here on, s: until then biases are being found.
+const SETTLED_S: f64 = 30.0;
+/// The share of samples that percentiles are of.
+const SHARE: f64 = 0.99;
+/// A horizontal error whose square by its covariance is more than this is beyond what is expected: one in 3000 is where the filter is
+/// right.
+const BEYOND: f64 = 16.0;
+/// What is expected holds errors of so many standard deviations.
+const DEVIATIONS: f64 = 3.0;
+
+/// What is gathered of a run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NavigationAccount {
+    looks: u32,
+    settled: u32,
+    nees: f64,
+    /// Sums of normalised innovations squared, and how many.
+    nis: [(f64, u32); 4],
+    /// Horizontal errors: their sum, and the greatest, m.
+    horizontal: (f64, f64),
+    /// The sum of the squares of errors of depth, m2, and the greatest, m.
+    depth: (f64, f64),
+    /// Sizes of errors of roll, pitch and yaw, rad.
+    attitude: [Vec<f64>; 3],
+    /// The greatest of any axis: rad/s and m/s2.
+    gyro_bias: f64,
+    accelerometer_bias: f64,
+    /// How many errors of each group of three states were within what is expected.
+    within: [u32; NAVIGATION_STATES / 3],
+    /// Looks at which the place was beyond what is expected, and nothing was told of it.
+    unnoticed: u32,
+}
+
+impl NavigationAccount {
+    /// A look at a time, s.
+    pub fn take(&mut self, t_s: f64, errors: &NavigationErrors) {
+        for ((sum, count), nis) in self.nis.iter_mut().zip(errors.nis) {
+            *sum += nis.unwrap_or(0.0);
+            *count += u32::from(nis.is_some());
+        }
+        let horizontal = errors.error[6].hypot(errors.error[7]);
+        self.looks += 1;
+        self.nees += errors.nees;
+        self.horizontal = (self.horizontal.0 + horizontal, self.horizontal.1.max(horizontal));
+        for (i, (error, sigma)) in errors.error.iter().zip(errors.sigma).enumerate() {
+            self.within[i / 3] += u32::from(error.abs() <= DEVIATIONS * sigma);
+        }
+        self.unnoticed += u32::from(!errors.doubted && beyond(errors));
+        if t_s < SETTLED_S {
+            return;
+        }
+        self.settled += 1;
+        let greatest = |group: usize| errors.error[3 * group..3 * group + 3].iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        self.attitude.iter_mut().zip(errors.error).for_each(|(list, error)| list.push(error.abs()));
+        self.gyro_bias = self.gyro_bias.max(greatest(1));
+        self.accelerometer_bias = self.accelerometer_bias.max(greatest(4));
+        let depth = errors.error[8];
+        self.depth = (self.depth.0 + depth * depth, self.depth.1.max(depth.abs()));
+    }
+
+    /// What came of it; none where there was no look.
+    pub fn summary(&self) -> Option<NavigationSummary> {
+        let looks = f64::from(self.looks);
+        if self.looks == 0 {
+            return None;
+        }
+        let [roll, pitch, yaw] = [0, 1, 2].map(|axis| degrees(percentile(&self.attitude[axis])));
+        let [attitude, gyro_bias, position, velocity, accelerometer_bias] =
+            self.within.map(|within| f64::from(within) / (3.0 * looks));
+        let nis = self.nis.map(|(sum, count)| (count > 0).then(|| sum / f64::from(count)));
+        Some(NavigationSummary {
+            position_error_mean_m: self.horizontal.0 / looks,
+            position_error_max_m: self.horizontal.1,
+            depth_error_rms_m: (self.depth.0 / f64::from(self.settled.max(1))).sqrt(),
+            depth_error_max_m: self.depth.1,
+            roll_error_99_deg: roll,
+            pitch_error_99_deg: pitch,
+            yaw_error_99_deg: yaw,
+            gyro_bias_error_max_deg_s: degrees(self.gyro_bias),
+            accelerometer_bias_error_max_m_s2: self.accelerometer_bias,
+            within_3_sigma: [attitude, gyro_bias, position, velocity, accelerometer_bias],
+            nees: self.nees / looks,
+            nis,
+            unnoticed_s: f64::from(self.unnoticed),
+        })
+    }
+}
+
+/// Whether the place is farther off than is expected.
+fn beyond(errors: &NavigationErrors) -> bool {
+    let (north, east) = (errors.error[6], errors.error[7]);
+    let (a, b, c) = (errors.sigma[6] * errors.sigma[6], errors.sigma[7] * errors.sigma[7], errors.north_east);
+    let determinant = a * b - c * c;
+    north * north * b - 2.0 * north * east * c + east * east * a > BEYOND * determinant
+}
+
+/// The least size that so many of the sizes do not exceed; 0 of none.
+fn percentile(sizes: &[f64]) -> f64 {
+    let mut sizes = sizes.to_vec();
+    sizes.sort_by(f64::total_cmp);
+    let place = (SHARE * sizes.len() as f64).ceil() as usize;
+    sizes.get(place.saturating_sub(1)).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(north: f64, sigma: f64, doubted: bool) -> NavigationErrors {
+        let mut errors = NavigationErrors {
+            error: [0.0; NAVIGATION_STATES],
+            sigma: [sigma; NAVIGATION_STATES],
+            north_east: 0.0,
+            nees: 1.0,
+            nis: [Some(2.0), None, None, None],
+            doubted,
+        };
+        errors.error[6] = north;
+        errors
+    }
+
+    #[test]
+    fn what_is_beyond_and_not_told_is_counted() {
+        let mut account = NavigationAccount::default();
+        assert!(account.summary().is_none());
+        [(3.0, false), (5.0, false), (5.0, true), (0.0, false)]
+            .into_iter()
+            .zip(40..)
+            .for_each(|((north, doubted), t)| account.take(f64::from(t), &errors(north, 1.0, doubted)));
+        let summary = account.summary().unwrap();
+        assert_eq!((summary.unnoticed_s, summary.position_error_mean_m), (1.0, 3.25));
+        assert_eq!(summary.nis, [Some(2.0), None, None, None]);
+        // Two of twelve numbers of places.
+        assert!((summary.within_3_sigma[2] - 10.0 / 12.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn percentiles_are_of_what_is_there() {
+        assert_eq!(percentile(&[]), 0.0);
+        let sizes: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        assert_eq!(percentile(&sizes), 198.0);
+    }
+}
