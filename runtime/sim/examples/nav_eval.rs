@@ -16,17 +16,17 @@ fn main() {
         s.environment.bottom.ground = Ground::Plane(Plane { from: 40.0, to: 40.0, ..Default::default() });
         s.instruments.pressure = Pressure { noise: 200.0 / 1025.0 / 9.81, rate: 5.0, ..Default::default() };
         s.instruments.dvl = Dvl { noise: 0.05, rate: 5.0, ..Default::default() };
-        let navigator = serde_json::from_str(&format!("{{\"inertial\":{{\"start\":1.0,\"range_error\":{range_error}}}}}")).unwrap();
+        let navigator = serde_json::from_str(&format!("{{\"inertial\":{{\"start\":1.0,\"range_error\":{range_error},\"model\":{}}}}}", case == "3" || case == "34")).unwrap();
         s.instruments.navigation = Some(Navigation { navigator, lbl: None });
         if case != "1" {
             s.instruments.inverted_usbl = Some(InvertedUsbl { sound_speed: Some(1500.0), ..Default::default() });
             let (heard, silent) = if case == "5" { (Some(50.0), 50.0) } else { (None, 0.0) };
             s.environment.transponder = Some(Transponder { at: Point::new(0.0, 500.0), depth: 2.0, drift: Vector::ZERO, heard, silent, sound_speed: Some(1500.0) });
         }
-        if case == "2" || case == "4" {
+        if case == "2" || case == "4" || case == "3" || case == "34" {
             let f = |name: &str| Fault { trouble: FaultKind::Sensor(Sensor::try_from(name.to_string()).unwrap(), SensorFault::Off), from: secs as f64 * 0.3, to: Some(secs as f64 * 0.6) };
             s.faults.push(f("speed"));
-            if case == "4" { s.faults.push(f("receivers")); }
+            if case == "4" || case == "34" { s.faults.push(f("receivers")); }
         }
         let mut sim = Simulator::new(&s, seed).unwrap();
         let mut snap = Snapshot::default();

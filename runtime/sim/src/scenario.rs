@@ -105,7 +105,7 @@ impl Scenario {
         world::check(self, &mut objections);
         setup::check(self, &mut objections);
         let has_transponder = self.environment.transponder.is_some();
-        self.instruments.check(has_transponder, self.vehicle.hull.steps(), &mut objections);
+        self.instruments.check(has_transponder, &self.vehicle.hull, &mut objections);
         payload::check(self, &mut objections);
         fault::check(self, &mut objections);
         if objections.0.is_empty() { Ok(()) } else { Err(ScenarioError { faults: objections.0 }) }

@@ -70,7 +70,7 @@ impl Simulator {
             measurements: scenario.measurements(),
             vehicle: Hull::new(&vehicle, flow, seed),
             track: takes_raw.then(Track::default),
-            instruments: Instruments::new(&scenario.instruments, &scenario.limits(), &world, &berth, seed),
+            instruments: Instruments::new((&scenario.instruments, &vehicle.hull), &scenario.limits(), &world, &berth, seed),
             world,
             endurance: vehicle.endurance,
             spent: false,

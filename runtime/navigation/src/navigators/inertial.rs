@@ -45,6 +45,7 @@ enum Source {
     Attitude,
     Pressure,
     Velocity,
+    Model,
     Receivers,
     Fixes,
 }
@@ -55,6 +56,7 @@ impl Source {
             Source::Attitude => "attitude",
             Source::Pressure => "pressure",
             Source::Velocity => "Doppler log",
+            Source::Model => "model",
             Source::Receivers => "transponder",
             Source::Fixes => "fixes",
         }
@@ -83,6 +85,8 @@ pub struct Settings {
     pub start: f64,
     /// What ranges to a transponder may be off beside the noise of the receivers, m: a standard deviation.
     pub range_error: f64,
+    /// Whether the hull's own equations give the velocity while the Doppler log is silent.
+    pub model: bool,
 }
 
 /// The navigator of a vehicle with an inertial unit, and with what aids it: attitude, pressure, velocity, a transponder, fixes.
@@ -102,6 +106,7 @@ pub struct Inertial {
     attitude: Agreement,
     pressure: Agreement,
     velocity: Agreement,
+    model: Agreement,
     receivers: Agreement,
     fixes: Agreement,
     nis: Nis,
@@ -133,6 +138,7 @@ impl Inertial {
             attitude: Agreement::of(3),
             pressure: Agreement::of(1),
             velocity: Agreement::of(3),
+            model: Agreement::of(3),
             receivers: Agreement::of(5),
             fixes: Agreement::of(2),
             nis: Nis::default(),
@@ -167,7 +173,8 @@ impl Inertial {
 
     /// Whether an instrument disagrees now, or the inertial unit tells nothing.
     pub fn is_doubted(&self) -> bool {
-        let disagrees = [&self.attitude, &self.pressure, &self.velocity, &self.receivers, &self.fixes];
+        let disagrees =
+            [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
         disagrees.into_iter().any(Agreement::disagrees) || self.gyro.is_silent || self.accelerometer.is_silent
     }
 
@@ -205,6 +212,10 @@ impl Inertial {
             velocity: told.velocity.and_then(|told| self.judge(Source::Velocity, told)),
             arrival: told.arrival.and_then(|told| self.judge(Source::Receivers, told)),
         };
+        if let Some(told) = told.modelled {
+            // Its noise is no white one, and its innovations tell nothing of the filter.
+            self.judge(Source::Model, told);
+        }
     }
 
     fn agreement(&mut self, source: Source) -> &mut Agreement {
@@ -212,6 +223,7 @@ impl Inertial {
             Source::Attitude => &mut self.attitude,
             Source::Pressure => &mut self.pressure,
             Source::Velocity => &mut self.velocity,
+            Source::Model => &mut self.model,
             Source::Receivers => &mut self.receivers,
             Source::Fixes => &mut self.fixes,
         }
@@ -235,8 +247,8 @@ impl Inertial {
                 Source::Attitude => ATTITUDE_DOUBT,
                 Source::Pressure => DEPTH_DOUBT,
                 // A log that disagrees while positions agree is the one that is wrong.
-                Source::Velocity if is_placed => NO_DOUBT,
-                Source::Velocity => VELOCITY_DOUBT,
+                Source::Velocity | Source::Model if is_placed => NO_DOUBT,
+                Source::Velocity | Source::Model => VELOCITY_DOUBT,
                 Source::Receivers => LOST_DOUBT,
                 Source::Fixes => PLACE_DOUBT,
             };

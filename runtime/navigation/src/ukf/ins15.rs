@@ -43,12 +43,12 @@ pub struct Imu {
     pub accelerometer: Option<[f64; 3]>,
 }
 
-/// A velocity over ground, of a Doppler log, Eq. (9), or of a model, Eq. (10).
+/// A velocity over ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Velocity {
     /// m/s, body.
     pub value: [f64; 3],
-    /// The covariance of its noise, m2/s2: of the model that of Eq. (11).
+    /// The covariance of its noise, m2/s2.
     pub noise: [[f64; 3]; 3],
 }
 
@@ -59,8 +59,10 @@ pub struct Aiding {
     pub attitude: Option<[f64; 3]>,
     /// Pressure above the atmosphere's, Pa, Eq. (8).
     pub pressure: Option<f64>,
-    /// Of a Doppler log or of a model.
+    /// Of a Doppler log, Eq. (9).
     pub velocity: Option<Velocity>,
+    /// Of the hull's equations, Eq. (10), with the noise of Eq. (11).
+    pub modelled: Option<Velocity>,
     /// How long the transponder's signal took to each receiver, s, Eq. (12): of all five, or none. A clock that counts down has half
     /// its period added.
     pub arrival: Option<[f64; 5]>,
@@ -75,6 +77,8 @@ pub struct Aided {
     pub pressure: Option<Result<Innovation<1>, UkfError>>,
     /// Of the velocity, m/s.
     pub velocity: Option<Result<Innovation<3>, UkfError>>,
+    /// Of the modelled one, m/s.
+    pub modelled: Option<Result<Innovation<3>, UkfError>>,
     /// Of the times of arrival, as ranges, m.
     pub arrival: Option<Result<Innovation<5>, UkfError>>,
 }
@@ -176,6 +180,7 @@ impl Ins15 {
             attitude: aiding.attitude.map(|value| self.take_attitude(value)),
             pressure: aiding.pressure.map(|value| self.take_pressure(value)),
             velocity: aiding.velocity.map(|value| self.take_velocity(&value)),
+            modelled: aiding.modelled.map(|value| self.take_velocity(&value)),
             arrival: aiding.arrival.map(|value| self.take_arrival(value)),
         }
     }
@@ -209,7 +214,7 @@ impl Ins15 {
         })
     }
 
-    /// Eq. (9): the velocity itself.
+    /// Eq. (9) and (10): the velocity itself.
     fn take_velocity(&mut self, velocity: &Velocity) -> Result<Innovation<3>, UkfError> {
         let measurement = Measurement {
             value: velocity.value.into(),

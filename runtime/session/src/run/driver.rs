@@ -291,7 +291,7 @@ impl Driver {
     /// How things are after the step.
     fn describe(&mut self, record: &mut TickRecord) {
         record.truth = self.vehicle.truth();
-        if record.tick.is_multiple_of(NAVIGATION_TICKS) {
+        if record.tick == 1 || record.tick.is_multiple_of(NAVIGATION_TICKS) {
             record.navigation = self.vehicle.navigation().map(Box::new);
         }
         record.believed = self.machine.position();

@@ -21,6 +21,7 @@ mod raw;
 mod receivers;
 mod sounder;
 mod usbl;
+mod velocity_model;
 
 pub use abilities::Abilities;
 pub use adcp::{Adcp, Looks, LowerAdcp};
@@ -44,6 +45,7 @@ pub use usbl::Usbl;
 
 use crate::craft::fault::Faults;
 use crate::craft::hull::{Motion, StartPose, State};
+use crate::craft::setup::HullSetup;
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
 use abilities::DataSheet;
@@ -217,10 +219,10 @@ impl InstrumentSetup {
         self.played.iter().any(|played| played.name() == measurement)
     }
 
-    /// What of them cannot be, in a world with a transponder or without one, aboard a hull that moves in so many steps a tick.
-    pub(crate) fn check(&self, has_transponder: bool, steps: u32, issues: &mut ScenarioIssues) {
+    /// What of them cannot be, in a world with a transponder or without one, aboard a hull.
+    pub(crate) fn check(&self, has_transponder: bool, hull: &HullSetup, issues: &mut ScenarioIssues) {
         positioning::check(self, issues);
-        inertial::check(self, has_transponder, steps, issues);
+        inertial::check(self, has_transponder, hull, issues);
         fluorometer::check(self, issues);
         sounder::check(self, issues);
         played::check(self, issues);
@@ -256,10 +258,16 @@ pub(crate) struct Instruments {
 }
 
 impl Instruments {
-    /// Those of a run that begins so in a world, aboard a vehicle with limits of its own.
-    pub fn new(setup: &InstrumentSetup, limits: &Limits, world: &World, start: &StartPose, seed: u64) -> Self {
+    /// Those of a run that begins so in a world, aboard a hull with limits of its own.
+    pub fn new(
+        (setup, hull): (&InstrumentSetup, &HullSetup),
+        limits: &Limits,
+        world: &World,
+        start: &StartPose,
+        seed: u64,
+    ) -> Self {
         Instruments {
-            navigation: OnboardNavigation::new(setup, world, start, seed),
+            navigation: OnboardNavigation::new(setup, hull, world, start, seed),
             pressure: setup.inertial().is_none().then(|| PressureGauge::new(&setup.pressure, seed)),
             sounder: EchoSounder::new(&setup.sounder, seed),
             adcp: Profiler::new(&setup.adcp, seed),

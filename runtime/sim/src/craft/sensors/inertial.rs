@@ -7,7 +7,9 @@ use super::imu::InertialUnit;
 use super::pressure::Pressure;
 use super::raw::{RawSample, RawSensor};
 use super::receivers::ReceiverArray;
+use super::velocity_model::VelocityModel;
 use crate::craft::hull::{StartPose, State, Track, attitude_of};
+use crate::craft::setup::HullSetup;
 use crate::noise::Noise;
 use crate::scenario::{ScenarioIssues, number};
 use crate::world::World;
@@ -15,7 +17,7 @@ use crate::world::sound::sound_speed;
 use crate::world::transponder::Transponder;
 use albacore_geometry::{Attitude, Point, Vector, wrap_angle};
 use albacore_navigation::ukf::{Aiding, Ins15Setup, InsState, Velocity};
-use albacore_navigation::{Departure, Inertial, Navigator, Raw};
+use albacore_navigation::{Departure, Inertial, InertialSettings, Navigator, Raw};
 use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors, TICK_S};
 use albacore_vehicle::rate::is_due;
 
@@ -46,6 +48,8 @@ pub struct InertialSuite {
     /// What a metre of water weighs on a square metre, Pa, and where the gauge is aboard, m, body.
     weight: f64,
     gauge: [f64; 3],
+    /// What gives a velocity where the log is silent.
+    model: Option<VelocityModel>,
 }
 
 /// What the filter is told of the instruments of a scenario.
@@ -96,7 +100,7 @@ pub fn departure(
 
 impl InertialSuite {
     /// Those of a run.
-    pub fn new(setup: &InstrumentSetup, seed: u64) -> Self {
+    pub fn new(setup: &InstrumentSetup, hull: &HullSetup, settings: &InertialSettings, seed: u64) -> Self {
         let told = Ins15Setup::default();
         InertialSuite {
             unit: InertialUnit::new(&setup.imu, seed),
@@ -112,6 +116,7 @@ impl InertialSuite {
             },
             weight: told.density * told.gravity,
             gauge: told.pressure_sensor,
+            model: VelocityModel::new(hull).filter(|_| settings.model),
         }
     }
 
@@ -195,8 +200,8 @@ impl InertialSuite {
         }
     }
 
-    /// Gives a navigator the samples of a tick as they came.
-    pub fn feed(&self, samples: &[RawSample], navigator: &mut dyn Navigator) {
+    /// Gives a navigator the samples of a tick as they came, in which the hull moved so.
+    pub fn feed(&mut self, tick: u64, samples: &[RawSample], track: &Track, navigator: &mut dyn Navigator) {
         let (steps, time) = self.unit.samples();
         for step in 0..steps {
             let of = |sensor| samples.iter().find(|s| s.sensor == sensor && usize::from(s.step) == step);
@@ -208,10 +213,19 @@ impl InertialSuite {
         let sigma = self.dvl.noise.max(VELOCITY_SIGMA_MIN);
         let variance = sigma * sigma;
         let noise = [[variance, 0.0, 0.0], [0.0, variance, 0.0], [0.0, 0.0, variance]];
+        let measured = last(RawSensor::DopplerLog).map(|sample| Velocity { value: sample.array(), noise });
+        let modelled = match (&mut self.model, navigator.inertial()) {
+            (Some(model), Some(inertial)) => {
+                model.step(track, inertial, measured.is_some());
+                model.velocity(tick, inertial)
+            }
+            _ => None,
+        };
         let aiding = Aiding {
             attitude: last(RawSensor::Attitude).map(RawSample::array),
             pressure: last(RawSensor::Pressure).map(|sample| self.weight * sample.array::<1>()[0]),
-            velocity: last(RawSensor::DopplerLog).map(|sample| Velocity { value: sample.array(), noise }),
+            velocity: measured,
+            modelled,
             arrival: self.receivers.as_ref().and_then(|receivers| {
                 last(RawSensor::Receivers).map(|sample| sample.array::<5>().map(|told| receivers.expected(told)))
             }),
@@ -220,8 +234,9 @@ impl InertialSuite {
     }
 }
 
-/// What of them cannot be, aboard a hull with so many steps a tick.
-pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, steps: u32, issues: &mut ScenarioIssues) {
+/// What of them cannot be, aboard a hull.
+pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, hull: &HullSetup, issues: &mut ScenarioIssues) {
+    let steps = hull.steps();
     let receivers = setup.inverted_usbl.is_some();
     issues.of("inverted_usbl").unless(
         None,
@@ -243,6 +258,13 @@ pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, steps: u32, 
         (steps as usize).is_multiple_of(samples) && (setup.imu.rate * TICK_S - samples as f64).abs() < 1e-9,
         format!("the hull moves in {steps} steps a tick of 100 ms: an inertial unit of {} Hz does not go into them", number(setup.imu.rate)),
         "take a rate such as 10, 50 or 100 Hz, or another `step` of the hull",
+    );
+    let models = setup.inertial().is_some_and(|inertial| inertial.model);
+    issues.of("navigation").unless(
+        None,
+        !models || VelocityModel::new(hull).is_some(),
+        "a `kinematic` vehicle has no equations that could give a velocity",
+        "leave `model` of `inertial` out, or let the vehicle be a `fossen` or a `prestero`",
     );
     issues.of("compass").unless(
         None,

@@ -9,6 +9,7 @@ use super::raw::RawSample;
 use super::{Instrument, InstrumentSetup, Surroundings};
 use crate::craft::fault::Faults;
 use crate::craft::hull::{Motion, StartPose, State, Track};
+use crate::craft::setup::HullSetup;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::{Estimate, Inertial, InertialSettings};
@@ -29,7 +30,7 @@ pub struct OnboardNavigation {
 
 impl OnboardNavigation {
     /// That of a run.
-    pub fn new(setup: &InstrumentSetup, world: &World, start: &StartPose, seed: u64) -> Self {
+    pub fn new(setup: &InstrumentSetup, hull: &HullSetup, world: &World, start: &StartPose, seed: u64) -> Self {
         let inertial = setup.inertial();
         let sigma = inertial.map_or(0.0, |InertialSettings { start, .. }| *start);
         let departure = departure(setup, world.transponder(), start, sigma, seed);
@@ -37,7 +38,7 @@ impl OnboardNavigation {
             compass: MagneticCompass::new(&setup.compass, seed),
             dvl: DopplerLog::new(&setup.dvl, seed),
             positioning: Positioning::new(setup.navigation.as_ref(), setup.gps.as_ref(), &departure, seed),
-            suite: inertial.map(|_| InertialSuite::new(setup, seed)),
+            suite: inertial.map(|settings| InertialSuite::new(setup, hull, settings, seed)),
             raw: Vec::new(),
         }
     }
@@ -55,12 +56,12 @@ impl OnboardNavigation {
         }
         self.positioning.measure(tick, motion.position, motion.depth, &mut self.raw);
         faults.filter_raw(tick, &mut self.raw);
-        if let (Some(suite), Some(navigator)) = (&self.suite, self.positioning.navigator()) {
+        if let (Some(suite), Some(navigator), Some(track)) = (&mut self.suite, self.positioning.navigator(), track) {
             if let Some(inertial) = navigator.inertial_mut() {
                 let time = tick as f64 * TICK_S;
                 suite.hear(inertial, world.stratification().at(motion.position, motion.depth, time), motion.depth);
             }
-            suite.feed(&self.raw, navigator);
+            suite.feed(tick, &self.raw, track, navigator);
         }
         self.positioning.take(&self.raw);
     }
