@@ -5,18 +5,22 @@ mod autopilot;
 mod fossen;
 mod grounding;
 mod kinematics;
+mod lqr;
 mod mass;
 mod prestero;
 mod six_dof;
 mod submersible;
 mod surface;
+#[cfg(test)]
+mod trial;
 
 pub(crate) use autopilot::speed_possible;
 
 pub use actuators::{ActuatorLimits, Actuators, Stuck};
-pub use autopilot::Gains;
+pub use autopilot::{Gains, Sensed};
 pub use fossen::Fossen;
 pub use kinematics::Kinematics;
+pub use lqr::{Controller, LqrGains};
 pub use prestero::{Crossflow, Prestero};
 pub use six_dof::{Controls, Load, Plant, Six, State, Surroundings, attitude_of, runge_kutta};
 pub use submersible::{Settings, Submersible};
@@ -97,6 +101,7 @@ impl Hull {
             speed_max: hull.speed_max,
             limits: hull.limits(),
             gains,
+            controller: hull.controller,
         };
         match &setup.hull {
             HullSetup::Kinematic(hull) => Hull::Kinematic(Kinematics::new(hull, &berth, seed)),

@@ -3,7 +3,8 @@
 use super::actuators::{ActuatorLimits, Actuators};
 use super::autopilot::{Autopilot, Gains, Sensed};
 use super::grounding::{Grounding, Intent, pivot};
-use super::six_dof::{Controls, Plant, State, Surroundings, attitude_of, runge_kutta};
+use super::lqr::Controller;
+use super::six_dof::{Plant, State, Surroundings, attitude_of, runge_kutta};
 use super::surface::{Body, Surface};
 use super::{Diverged, Motion, StartPose};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
@@ -21,6 +22,15 @@ pub struct Settings {
     pub limits: ActuatorLimits,
     /// The gains of its autopilot.
     pub gains: Gains,
+    /// What moves its fins.
+    pub controller: Controller,
+}
+
+impl Settings {
+    /// Time step of the integration, s.
+    pub fn step(&self) -> f64 {
+        TICK_S / f64::from(self.steps)
+    }
 }
 
 /// A submersible under way.
@@ -39,6 +49,8 @@ pub struct Submersible<P> {
     grounding: Option<Grounding>,
     steps: u32,
     motion: Motion,
+    /// How the water about it moved in the last tick.
+    flow: Vector,
 }
 
 impl<P: Plant> Submersible<P> {
@@ -50,8 +62,8 @@ impl<P: Plant> Submersible<P> {
         let state = State { pose, velocity: Vector6::new(u, v, w, 0.0, 0.0, 0.0) };
         let motion = berth.motion();
         Submersible {
-            actuators: Actuators::new(settings.limits, TICK_S / f64::from(settings.steps)),
-            autopilot: Autopilot::new(&plant, settings.gains, &settings.limits, settings.speed_max),
+            actuators: Actuators::new(settings.limits, settings.step()),
+            autopilot: Autopilot::new(&plant, settings),
             surface: Surface::new(body),
             length: body.length,
             grounding: None,
@@ -60,29 +72,13 @@ impl<P: Plant> Submersible<P> {
             buoyancy_loss: 0.0,
             steps: settings.steps,
             motion,
+            flow,
         }
     }
 
     /// Where it is and how it moves.
     pub fn motion(&self) -> &Motion {
         &self.motion
-    }
-
-    /// What its autopilot and its actuators make of a command in the coming tick.
-    fn controls(&mut self, command: Option<&Command>, water_depth: f64) -> Controls {
-        let [_, _, depth, _, pitch, _] = self.state.pose.into();
-        let [_, _, _, _, pitch_rate, yaw_rate] = self.state.velocity.into();
-        let sensed = Sensed {
-            heading: self.motion.heading,
-            pitch,
-            pitch_rate,
-            yaw_rate,
-            depth,
-            water_depth,
-            speed: self.motion.speed,
-        };
-        let wanted = self.autopilot.steer(&sensed, command);
-        self.actuators.within_limits(&wanted)
     }
 
     /// Lets one tick go by, in water that moves with `flow`. `water_depth` tells the depth of the water at a point. If the
@@ -95,12 +91,31 @@ impl<P: Plant> Submersible<P> {
         flow: Vector,
         water_depth: impl Fn(Point) -> f64,
     ) -> Result<(), Diverged> {
+        self.step_as_told(command, flow, water_depth, |truth| truth)
+    }
+
+    /// The same with an autopilot that goes by what it is told: `told` makes of what perfect instruments would tell what it is
+    /// given, such as the estimate of a navigation filter. It is asked whenever the fins are moved: once a tick by the cascade, at
+    /// every step of the integration by the regulator of the 2016 paper.
+    pub fn step_as_told(
+        &mut self,
+        command: Option<&Command>,
+        flow: Vector,
+        water_depth: impl Fn(Point) -> f64,
+        mut told: impl FnMut(Sensed) -> Sensed,
+    ) -> Result<(), Diverged> {
         let before = self.motion.position;
-        let goal = self.controls(command, water_depth(before));
+        let here = water_depth(before);
+        let wanted = self.autopilot.steer(&told(Sensed::of(&self.state, self.flow, here)), command);
+        let mut goal = self.actuators.within_limits(&wanted);
         let around = Surroundings { current: flow, buoyancy_loss: self.buoyancy_loss, surface: Some(self.surface) };
         let h = TICK_S / f64::from(self.steps);
         let mut state = self.state;
-        for _ in 0..self.steps {
+        for step in 0..self.steps {
+            if step > 0 && self.autopilot.steers_within_a_tick() {
+                let wanted = self.autopilot.steer_on(&told(Sensed::of(&state, flow, here)));
+                goal = self.actuators.within_limits(&wanted);
+            }
             let controls = self.actuators.step(&goal);
             state = runge_kutta(&self.plant, &state, &controls, &around, h);
         }
@@ -135,7 +150,7 @@ impl<P: Plant> Submersible<P> {
     fn observe(&mut self, before: Point, flow: Vector) {
         let [north, east, depth, roll, pitch, yaw] = self.state.pose.into();
         let position = Point::new(north, east);
-        let [ahead, ..] = attitude_of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
+        self.flow = flow;
         self.motion = Motion {
             position,
             heading: Heading::from_radians(yaw),
@@ -143,7 +158,7 @@ impl<P: Plant> Submersible<P> {
             roll,
             // At the surface it may lie a little out of the water.
             depth: depth.max(0.0),
-            speed: self.state.velocity[0] - ahead,
+            speed: Sensed::of(&self.state, flow, 0.0).speed,
             ground_velocity: (1.0 / TICK_S) * (position - before),
             aground: self.grounding.is_some(),
         };
