@@ -2,11 +2,12 @@
 //! propeller.
 //!
 //! Which law moves the fins is a [`Controller`]; what is asked of the propeller, at the surface, over a bottom and of a hull that
-//! stalls is the same with each. The one that is here is classical cascaded control (Fossen 2021, ch. 15), ours in its numbers. A hull answers its fins the faster the faster it
-//! swims: lengths and angles of its motion stay the same, times shrink. So gains on angles are constant, and gains on rates
-//! fall as one over speed.
+//! stalls is the same with each.
+//!
+//! The law that is here is classical cascaded control (Fossen 2021, ch. 15), ours in its numbers. A hull answers its fins the faster
+//! the faster it swims: lengths and angles of its motion stay the same, times shrink. So gains on angles are constant, and gains on
+//! rates fall as one over speed.
 
-use super::actuators::ActuatorLimits;
 use super::lqr::{Controller, Goal, Lqr};
 use super::six_dof::{Controls, Load, Plant, State, attitude_of};
 use super::submersible::Settings;
@@ -148,9 +149,7 @@ impl Sensed {
 pub struct Autopilot {
     gains: Gains,
     /// What moves the fins in place of the cascade.
-    lqr: Option<Lqr>,
-    /// What fins and propeller were told last.
-    told: Controls,
+    lqr: Option<Box<Lqr>>,
     fin_max: f64,
     rpm_max: f64,
     speed_max: f64,
@@ -175,12 +174,11 @@ impl Autopilot {
         let Settings { gains, limits, speed_max, .. } = *settings;
         let lqr = match settings.controller {
             Controller::Cascade => None,
-            Controller::Lqr2016(gains) => Some(Lqr::new(gains, limits.fin, settings.step())),
+            Controller::Lqr2016(gains) => Some(Box::new(Lqr::new(gains, limits.fin, settings.step()))),
         };
         Autopilot {
             gains,
             lqr,
-            told: Controls::default(),
             fin_max: limits.fin,
             rpm_max: limits.rpm,
             speed_max,
@@ -200,8 +198,7 @@ impl Autopilot {
         self.watch_bottom(sensed.water_depth);
         let Some(command) = command else {
             self.start_afresh();
-            self.told = Controls::default();
-            return self.told;
+            return Controls::default();
         };
         let speed = sensed.speed.max(SPEED_MIN);
         let (wanted_depth, sinking) = match command.vertical {
@@ -230,8 +227,7 @@ impl Autopilot {
         };
         // A hull that is to make no way keeps none, unless it swims down: what it has of buoyancy takes it up.
         let way = if command.speed > 0.0 || self.stalled { command.speed.max(least) } else { command.speed };
-        self.told = Controls { rudder, stern, rpm: self.rpm(way.clamp(0.0, self.speed_max), sensed.speed) };
-        self.told
+        Controls { rudder, stern, rpm: self.rpm(way.clamp(0.0, self.speed_max), sensed.speed) }
     }
 
     /// Whether its law moves the fins at every step of the integration, and not once a tick.
@@ -239,13 +235,13 @@ impl Autopilot {
         self.lqr.is_some()
     }
 
-    /// What fins and propeller are to do at a later step of the tick that the last command was of.
-    pub fn steer_on(&mut self, sensed: &Sensed) -> Controls {
-        if self.lqr.as_ref().is_some_and(Lqr::is_under_way) {
-            let (rudder, stern) = self.fins_by_lqr(sensed);
-            self.told = Controls { rudder, stern, ..self.told };
+    /// What is to be done at a later step of a tick, at whose beginning that was `wanted`.
+    pub fn steer_on(&mut self, sensed: &Sensed, wanted: &Controls) -> Controls {
+        if !self.lqr.as_ref().is_some_and(|lqr| lqr.is_under_way()) {
+            return *wanted;
         }
-        self.told
+        let (rudder, stern) = self.fins_by_lqr(sensed);
+        Controls { rudder, stern, ..*wanted }
     }
 
     /// Rudder and stern plane within their limits. The law's angles are such that a positive one gives a positive moment: for the
@@ -361,6 +357,7 @@ const BISECTIONS: u32 = 60;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::craft::hull::actuators::ActuatorLimits;
     use crate::craft::hull::{Controller, Crossflow, Fossen, Prestero};
 
     /// Turns asked for at a speed, after half a minute in which the hull was far too fast for them.

@@ -113,7 +113,7 @@ impl<P: Plant> Submersible<P> {
         let mut state = self.state;
         for step in 0..self.steps {
             if step > 0 && self.autopilot.steers_within_a_tick() {
-                let wanted = self.autopilot.steer_on(&told(Sensed::of(&state, flow, here)));
+                let wanted = self.autopilot.steer_on(&told(Sensed::of(&state, flow, here)), &wanted);
                 goal = self.actuators.within_limits(&wanted);
             }
             let controls = self.actuators.step(&goal);

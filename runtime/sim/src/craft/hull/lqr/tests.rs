@@ -291,22 +291,21 @@ fn on_the_bottom_it_lies_still_and_comes_free() {
     }
 }
 
+/// (19) has no integral of the heading: what rolls the hull and what it is trimmed with leave an offset. Slower than 1.2 m/s the nose of the
+/// hull after Prestero wavers by a degree.
 #[test]
-fn wander() {
-    for speed in [1.0, 1.1, 1.2, 1.54, 2.0, 2.5] {
-        let mut trial = Trial::new(prestero());
-        trial.go(0.0, speed, Vertical::Depth(5.0), 200.0);
-        let way = trial.go(0.0, speed, Vertical::Depth(5.0), 60.0);
-        let h: Vec<f64> = way.iter().map(|m| degrees(m.heading - Heading::NORTH)).collect();
-        let d: Vec<f64> = way.iter().map(|m| m.depth).collect();
-        println!(
-            "WANDER {speed} {:.2} {:.2} depth {:.2} {:.2} roll {:.1}",
-            h.iter().copied().fold(9., f64::min),
-            h.iter().copied().fold(-9., f64::max),
-            d.iter().copied().fold(9., f64::min),
-            d.iter().copied().fold(-9., f64::max),
-            degrees(way[9].roll)
-        );
+fn a_heading_is_held_to_a_degree() {
+    for (name, hull) in HULLS {
+        for speed in [1.0, 1.1, 1.2, 1.54, 2.0, 2.5] {
+            let mut trial = Trial::new(hull());
+            trial.go(0.0, speed, Vertical::Depth(5.0), 240.0);
+            let way = trial.go(0.0, speed, Vertical::Depth(5.0), 60.0);
+            let off = |m: &Motion| degrees(m.heading - Heading::NORTH);
+            let (least, most) = way.iter().map(off).fold((9.0, -9.0), |(a, b), off| (off.min(a), off.max(b)));
+            println!("{name} at {speed} m/s: nose off by {least:.2} to {most:.2} deg");
+            let wide = if speed < 1.2 { 3.0 } else { 1.0 };
+            assert!(least > -wide && most < wide, "{name} at {speed} m/s: {least} to {most} deg");
+        }
     }
 }
 
