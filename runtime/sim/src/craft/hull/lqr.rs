@@ -39,6 +39,7 @@ pub enum Controller {
 
 /// The gains of both regulators, in SI units and radians.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "LqrClause")]
 pub struct LqrGains {
     /// ek1 to ek5: of heave, rate of pitch, pitch, error of depth and its integral.
     pub elevator: [f64; 5],
@@ -56,6 +57,27 @@ impl Default for LqrGains {
             rudder: [0.3137, -0.9071, -1.1180],
             depth_error_max: 0.6,
         }
+    }
+}
+
+/// The same as a script says it, in lists that may be too short.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LqrClause {
+    elevator: Vec<f64>,
+    rudder: Vec<f64>,
+    depth_error_max: f64,
+}
+
+impl TryFrom<LqrClause> for LqrGains {
+    type Error = &'static str;
+
+    fn try_from(clause: LqrClause) -> Result<Self, Self::Error> {
+        Ok(LqrGains {
+            elevator: clause.elevator.try_into().map_err(|_| "`elevator` has no five gains\nwrite ek1 to ek5")?,
+            rudder: clause.rudder.try_into().map_err(|_| "`rudder` has no three gains\nwrite rk1 to rk3")?,
+            depth_error_max: clause.depth_error_max,
+        })
     }
 }
 
@@ -109,7 +131,7 @@ impl Lqr {
         (self.goal, self.integral) = (None, 0.0);
     }
 
-    /// (18): the angle asked of the elevator, rad, whether it can reach it or not; positive lifts the nose.
+    /// (18): the angle asked of the elevator, rad, whether it can reach that or not; positive lifts the nose.
     pub fn elevator(&mut self, sensed: &Sensed) -> f64 {
         let Some(goal) = self.goal else { return 0.0 };
         let LqrGains { elevator: [ek1, ek2, ek3, ek4, ek5], depth_error_max, .. } = self.gains;
