@@ -43,7 +43,7 @@ struct Loops<P> {
 impl<P: Plant> Loops<P> {
     fn rates_in_the_vertical(&self, x: Vector6<f64>) -> Vector6<f64> {
         let [w, q, theta, z, integral, fin] = x.into();
-        let mut law = Lqr { integral: integral, ..Lqr::new(LqrGains::default(), PI, 0.0) };
+        let mut law = Lqr { integral, ..Lqr::new(LqrGains::default(), PI, 0.0) };
         law.head_for(Goal { depth: 5.0, ..Goal::default() });
         let sensed = Sensed { pitch: theta, pitch_rate: q, heave: w, depth: 5.0 + z, ..self.level() };
         let asked = -self.sign * law.elevator(&sensed);
