@@ -35,6 +35,7 @@ const STDLIB: &[(&str, &str)] = &[
     ("scenarios", include_str!("../../../stdlib/scenarios.alb")),
     ("search", include_str!("../../../stdlib/search.alb")),
     ("vehicles", include_str!("../../../stdlib/vehicles.alb")),
+    ("waypoints_2016", include_str!("../../../stdlib/waypoints_2016.alb")),
     ("world", include_str!("../../../stdlib/world.alb")),
 ];
 

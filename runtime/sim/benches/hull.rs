@@ -6,7 +6,7 @@
 mod common;
 
 use albacore_geometry::{Heading, Vector};
-use albacore_sim::hull::{Crossflow, Hull};
+use albacore_sim::hull::{Controller, Crossflow, Hull, LqrGains};
 use albacore_sim::{HullSetup, KinematicHull, SubmersibleHull, VehicleSetup};
 use albacore_vehicle::{Command, Vertical};
 use common::{cost, stretches};
@@ -23,6 +23,8 @@ enum Kind {
     Kinematic,
     Fossen,
     Prestero,
+    /// The same with fins that are moved at every step.
+    Regulated,
 }
 
 impl Kind {
@@ -31,13 +33,17 @@ impl Kind {
             Kind::Kinematic => HullSetup::Kinematic(KinematicHull::default()),
             Kind::Fossen => HullSetup::Fossen(SubmersibleHull::fossen()),
             Kind::Prestero => HullSetup::Prestero(SubmersibleHull::prestero(), Crossflow::Corrected),
+            Kind::Regulated => {
+                let controller = Controller::Lqr2016(LqrGains::default());
+                HullSetup::Prestero(SubmersibleHull { controller, ..SubmersibleHull::prestero() }, Crossflow::Corrected)
+            }
         };
         Hull::new(&VehicleSetup { hull, depth: 5.0, ..VehicleSetup::default() }, Vector::ZERO, 1)
     }
 }
 
 fn main() {
-    for kind in [Kind::Kinematic, Kind::Fossen, Kind::Prestero] {
+    for kind in [Kind::Kinematic, Kind::Fossen, Kind::Prestero, Kind::Regulated] {
         let bytes = match kind.hull() {
             Hull::Kinematic(hull) => size_of_val(&hull),
             Hull::Fossen(hull) => size_of_val(&*hull),

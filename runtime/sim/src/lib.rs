@@ -16,8 +16,8 @@ pub use craft::fault::{Fault, FaultKind, Sensor, SensorFault};
 pub use craft::hull;
 pub use craft::payload::Payload;
 pub use craft::sensors::{
-    Adcp, AttitudeSensor, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Imu, InstrumentSetting, InstrumentSetup, Lbl, Looks, Navigation,
-    InvertedUsbl, Played, PlayedSample, Pressure, Sounder, Usbl,
+    Adcp, AttitudeSensor, Battery, Compass, Ctd, Dvl, Fluorometer, Gps, Imu, InstrumentSetting, InstrumentSetup,
+    InvertedUsbl, Lbl, Looks, Navigation, Played, PlayedSample, Pressure, Sounder, Usbl,
 };
 pub use craft::setup::{HullSetup, KinematicHull, OwnMission, SubmersibleHull, VehicleSetup};
 pub use noise::{Noise, Stream};

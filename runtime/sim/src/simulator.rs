@@ -13,8 +13,8 @@ use albacore_geometry::{Point, Vector};
 use albacore_navigation::Estimate;
 use albacore_vehicle::measurements::VEHICLE_MODE;
 use albacore_vehicle::{
-    Beyond, Command, Control, LimitWatch, Limits, Measurement, NavigationErrors, REQUEST_TICKS, Snapshot, TICK_S, Truth, Vehicle,
-    VehicleError, Vertical,
+    Beyond, Command, Control, LimitWatch, Limits, Measurement, NavigationErrors, REQUEST_TICKS, Snapshot, TICK_S,
+    Truth, Vehicle, VehicleError, Vertical,
 };
 
 /// Ticks between what the vehicle tells of its own mission.
@@ -70,7 +70,13 @@ impl Simulator {
             measurements: scenario.measurements(),
             vehicle: Hull::new(&vehicle, flow, seed),
             track: takes_raw.then(Track::default),
-            instruments: Instruments::new((&scenario.instruments, &vehicle.hull), &scenario.limits(), &world, &berth, seed),
+            instruments: Instruments::new(
+                (&scenario.instruments, &vehicle.hull),
+                &scenario.limits(),
+                &world,
+                &berth,
+                seed,
+            ),
             world,
             endurance: vehicle.endurance,
             spent: false,
@@ -170,6 +176,10 @@ impl Simulator {
         let altitude = self.world.water_depth(motion.position) - motion.depth;
         let step = Step { tick, motion, altitude, track: self.track.as_ref() };
         self.instruments.step(&step, &self.world, &mut self.faults);
+        let end = self.track.as_ref().and_then(|track| track.states.last());
+        if let Some(misjudged) = end.and_then(|state| self.instruments.misjudged(state)) {
+            self.vehicle.misjudge(&misjudged);
+        }
         Ok(())
     }
 

@@ -197,8 +197,7 @@ impl World {
         let depth = bottom.depth_at(scenario.vehicle.start);
         let sea = scenario.environment.flow.waves.as_ref().map(|waves| Sea::new(waves, depth, seed));
         let stratification = scenario.environment.stratification.clone();
-        let (beacon, transponder) =
-            (scenario.environment.beacon.clone(), scenario.environment.transponder.clone());
+        let (beacon, transponder) = (scenario.environment.beacon.clone(), scenario.environment.transponder.clone());
         let slicks = Slick::all(&scenario.environment.spills, seed);
         World { carrier, upper, sea, stratification, bottom: Seabed::new(bottom), beacon, transponder, slicks }
     }

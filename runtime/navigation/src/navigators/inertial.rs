@@ -2,8 +2,8 @@
 
 mod agreement;
 
-use crate::navigator::{Estimate, Fix, Navigator, Raw, Sensed};
 use super::Departure;
+use crate::navigator::{Estimate, Fix, Navigator, Raw, Sensed};
 use crate::ukf::{Aiding, Imu, Innovation, Ins15, Ins15Gates, Ins15Setup, InsState, UkfError};
 use agreement::{Agreement, Turn};
 use albacore_geometry::Point;
@@ -173,8 +173,7 @@ impl Inertial {
 
     /// Whether an instrument disagrees now, or the inertial unit tells nothing.
     pub fn is_doubted(&self) -> bool {
-        let disagrees =
-            [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
+        let disagrees = [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
         disagrees.into_iter().any(Agreement::disagrees) || self.gyro.is_silent || self.accelerometer.is_silent
     }
 
@@ -272,11 +271,8 @@ impl Navigator for Inertial {
     fn predict(&mut self, _: &Sensed, _: f64) {}
 
     fn update(&mut self, fix: &Fix) -> bool {
-        let told = self.filter.take_fix(
-            [fix.position.north, fix.position.east],
-            fix.sigma.max(FIX_SIGMA_MIN),
-            Some(GATE_2),
-        );
+        let told =
+            self.filter.take_fix([fix.position.north, fix.position.east], fix.sigma.max(FIX_SIGMA_MIN), Some(GATE_2));
         self.judge(Source::Fixes, told);
         told.is_ok_and(|innovation| !innovation.gated)
     }

@@ -160,12 +160,8 @@ impl Ins15 {
     ///
     /// A position that is not finite, or a covariance that is not positive definite. The filter is as it was.
     pub fn take_fix(&mut self, position: [f64; 2], sigma: f64, gate: Option<f64>) -> Result<Innovation<2>, UkfError> {
-        let measurement = Measurement {
-            value: position.into(),
-            noise: diagonal([sigma; 2]),
-            components: [Component::Line; 2],
-            gate,
-        };
+        let measurement =
+            Measurement { value: position.into(), noise: diagonal([sigma; 2]), components: [Component::Line; 2], gate };
         self.filter.update(&measurement, |state| [state[POSITION], state[POSITION + 1]].into())
     }
 

@@ -55,7 +55,8 @@ fn truth(step: u64) -> (InsState, Imu) {
         velocity: velocity.into(),
         accelerometer_bias: [BIASES.1; 3],
     };
-    let imu = Imu { gyro: Some(turn.add_scalar(BIASES.0).into()), accelerometer: Some(force.add_scalar(BIASES.1).into()) };
+    let imu =
+        Imu { gyro: Some(turn.add_scalar(BIASES.0).into()), accelerometer: Some(force.add_scalar(BIASES.1).into()) };
     (state, imu)
 }
 
@@ -156,7 +157,10 @@ fn covariances_stay_symmetric_and_positive_over_a_long_run_with_dropouts() {
             assert!(filter.filter().state()[2].abs() <= PI);
         }
         imu.gyro.iter_mut().flatten().for_each(|rate| *rate += setup.gyro_sigma * random.gaussian());
-        imu.accelerometer.iter_mut().flatten().for_each(|force| *force += setup.accelerometer_sigma * random.gaussian());
+        imu.accelerometer
+            .iter_mut()
+            .flatten()
+            .for_each(|force| *force += setup.accelerometer_sigma * random.gaussian());
         assert_eq!(filter.predict(&imu, DT), Ok(()), "step {step}");
     }
     let inside = inside.map(|inside| inside as f64 / looks as f64);

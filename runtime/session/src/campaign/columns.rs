@@ -90,7 +90,8 @@ impl Columns {
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
         let cases = programs.iter().map(|&(program, is_inertial)| {
             // Of its own columns no two have one name.
-            let (case, own) = CaseColumns::new(program, is_inertial, reports_of_each, names[..before + FIXED.len()].iter().cloned());
+            let (case, own) =
+                CaseColumns::new(program, is_inertial, reports_of_each, names[..before + FIXED.len()].iter().cloned());
             let place = |name: String| {
                 *known.entry(name).or_insert_with_key(|name| {
                     names.push(name.clone());

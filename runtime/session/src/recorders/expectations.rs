@@ -323,7 +323,8 @@ fn greatest(errors: &[f64]) -> f64 {
 /// The words of what an input would truly tell at a time (s of the run), in SI units.
 fn true_words(input: TrueInput, known: &Known, time: f64, scenario: &Scenario) -> Vec<f64> {
     let truth = known.truth;
-    let of = |value: fn(&NavigationErrors) -> f64| known.navigation.map_or(vec![0.0; 2], |errors| vec![1.0, value(errors)]);
+    let of =
+        |value: fn(&NavigationErrors) -> f64| known.navigation.map_or(vec![0.0; 2], |errors| vec![1.0, value(errors)]);
     let layers = || scenario.environment.stratification.at(truth.position, truth.depth, time);
     match input {
         TrueInput::Depth => vec![truth.depth],

@@ -56,7 +56,8 @@ impl NavigationAccount {
             return;
         }
         self.settled += 1;
-        let greatest = |group: usize| errors.error[3 * group..3 * group + 3].iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        let greatest =
+            |group: usize| errors.error[3 * group..3 * group + 3].iter().fold(0.0, |m: f64, e| m.max(e.abs()));
         self.attitude.iter_mut().zip(errors.error).for_each(|(list, error)| list.push(error.abs()));
         self.gyro_bias = self.gyro_bias.max(greatest(1));
         self.accelerometer_bias = self.accelerometer_bias.max(greatest(4));

@@ -150,7 +150,12 @@ pub(crate) fn check(scenario: &Scenario, objections: &mut ScenarioIssues) {
                 disorder.check(sensor, &mut of);
                 let raw = sensor.raw().filter(|_| sensor.measurement().is_none());
                 if let Some((missing, mend)) = raw.and_then(|raw| scenario.instruments.lacks(raw)) {
-                    of.unless(Some("sensor"), false, format!("nothing takes what `{}` tells: {missing}", sensor.name()), mend);
+                    of.unless(
+                        Some("sensor"),
+                        false,
+                        format!("nothing takes what `{}` tells: {missing}", sensor.name()),
+                        mend,
+                    );
                 }
             }
             FaultKind::StrongCurrent(current) => of.flow("current", current),

@@ -5,19 +5,23 @@ mod autopilot;
 mod fossen;
 mod grounding;
 mod kinematics;
+mod lqr;
 mod mass;
 mod prestero;
 mod six_dof;
 mod submersible;
 mod surface;
 mod track;
+#[cfg(test)]
+mod trial;
 
-pub(crate) use autopilot::speed_possible;
+pub(crate) use autopilot::{Misjudged, speed_possible};
 
 pub use actuators::{ActuatorLimits, Actuators, Stuck};
-pub use autopilot::Gains;
+pub use autopilot::{Gains, Sensed};
 pub use fossen::Fossen;
 pub use kinematics::Kinematics;
+pub use lqr::{Controller, LqrGains};
 pub use prestero::{Crossflow, Prestero};
 pub use six_dof::{Controls, Load, Plant, Six, State, Surroundings, attitude_of, runge_kutta};
 pub use submersible::{Settings, Submersible};
@@ -100,6 +104,7 @@ impl Hull {
             speed_max: hull.speed_max,
             limits: hull.limits(),
             gains,
+            controller: hull.controller,
         };
         match &setup.hull {
             HullSetup::Kinematic(hull) => Hull::Kinematic(Kinematics::new(hull, &berth, seed)),
@@ -161,6 +166,15 @@ impl Hull {
             Hull::Kinematic(_) => None,
             Hull::Fossen(hull) => Some(&mut hull.actuators),
             Hull::Prestero(hull) => Some(&mut hull.actuators),
+        }
+    }
+
+    /// Has its autopilot go by what it is told with these errors, until it is told otherwise; a kinematic hull has none.
+    pub(crate) fn misjudge(&mut self, errors: &Misjudged) {
+        match self {
+            Hull::Kinematic(_) => {}
+            Hull::Fossen(hull) => hull.misjudged = *errors,
+            Hull::Prestero(hull) => hull.misjudged = *errors,
         }
     }
 

@@ -44,7 +44,7 @@ pub(crate) use sounder::water_depth;
 pub use usbl::Usbl;
 
 use crate::craft::fault::Faults;
-use crate::craft::hull::{Motion, StartPose, State};
+use crate::craft::hull::{Misjudged, Motion, StartPose, State};
 use crate::craft::setup::HullSetup;
 use crate::scenario::ScenarioIssues;
 use crate::world::World;
@@ -307,6 +307,11 @@ impl Instruments {
     /// How far it is off, of a hull in a state.
     pub fn navigation_errors(&self, state: &State) -> Option<NavigationErrors> {
         self.navigation.errors(state)
+    }
+
+    /// What the autopilot of a hull in a state goes by, where that is not the truth.
+    pub fn misjudged(&self, state: &State) -> Option<Misjudged> {
+        self.navigation.misjudged(state)
     }
 
     /// What the navigation has noticed since this was last asked.

@@ -1,6 +1,6 @@
 //! The vehicle, its own mission and its computer: what a scenario says of them, and what of that cannot be.
 
-use crate::craft::hull::{self, ActuatorLimits, Crossflow, Fossen, Prestero};
+use crate::craft::hull::{self, ActuatorLimits, Controller, Crossflow, Fossen, Prestero};
 use crate::scenario::{OfClause, Scenario, ScenarioIssues, number, rounded_down};
 use albacore_geometry::math::PI;
 use albacore_geometry::{Heading, Point};
@@ -55,23 +55,33 @@ struct VehicleClause {
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Model {
-    Kinematic(Powered<KinematicHull>),
-    Fossen(Powered<SubmersibleHull>),
-    Prestero(Powered<PresteroHull>),
+    Kinematic(KinematicClause),
+    Fossen(FossenClause),
+    Prestero(PresteroClause),
 }
 
 #[derive(Deserialize)]
-struct Powered<T> {
+struct KinematicClause {
     #[serde(flatten)]
-    hull: T,
+    hull: KinematicHull,
     endurance: f64,
 }
 
 #[derive(Deserialize)]
-struct PresteroHull {
+struct FossenClause {
+    #[serde(flatten)]
+    hull: SubmersibleHull,
+    control: Controller,
+    endurance: f64,
+}
+
+#[derive(Deserialize)]
+struct PresteroClause {
     #[serde(flatten)]
     hull: SubmersibleHull,
     as_printed: bool,
+    control: Controller,
+    endurance: f64,
 }
 
 impl TryFrom<VehicleClause> for VehicleSetup {
@@ -82,11 +92,13 @@ impl TryFrom<VehicleClause> for VehicleSetup {
         let model = model
             .ok_or("this does not say how the vehicle moves\nwrite `vehicle(kinematic, start: …)`, for example")?;
         let (hull, endurance) = match model {
-            Model::Kinematic(Powered { hull, endurance }) => (HullSetup::Kinematic(hull), endurance),
-            Model::Fossen(Powered { hull, endurance }) => (HullSetup::Fossen(hull), endurance),
-            Model::Prestero(Powered { hull: PresteroHull { hull, as_printed }, endurance }) => {
+            Model::Kinematic(KinematicClause { hull, endurance }) => (HullSetup::Kinematic(hull), endurance),
+            Model::Fossen(FossenClause { hull, control: controller, endurance }) => {
+                (HullSetup::Fossen(SubmersibleHull { controller, ..hull }), endurance)
+            }
+            Model::Prestero(PresteroClause { hull, as_printed, control: controller, endurance }) => {
                 let crossflow = if as_printed { Crossflow::AsPrinted } else { Crossflow::Corrected };
-                (HullSetup::Prestero(hull, crossflow), endurance)
+                (HullSetup::Prestero(SubmersibleHull { controller, ..hull }, crossflow), endurance)
             }
         };
         Ok(VehicleSetup { hull, start, start_spread, heading, depth, endurance })
@@ -189,6 +201,9 @@ pub struct SubmersibleHull {
     pub turns_max: f64,
     /// Time step of the integration, s: a tick is a whole number of steps.
     pub step: f64,
+    /// What moves its fins.
+    #[serde(skip)]
+    pub controller: Controller,
 }
 
 impl SubmersibleHull {
@@ -200,7 +215,13 @@ impl SubmersibleHull {
 
     /// The published limits of the plant after Fossen: 1525 turns a minute.
     pub fn fossen() -> Self {
-        SubmersibleHull { speed_max: 2.5, fin_max: 15.0 * PI / 180.0, turns_max: 25.42, step: 0.01 }
+        SubmersibleHull {
+            speed_max: 2.5,
+            fin_max: 15.0 * PI / 180.0,
+            turns_max: 25.42,
+            step: 0.01,
+            controller: Controller::Cascade,
+        }
     }
 
     /// Those of the plant after Prestero. Its propeller is published at 1500 turns a minute and 1.54 m/s; that it can do 2500 is

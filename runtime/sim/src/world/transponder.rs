@@ -68,7 +68,10 @@ mod tests {
             silent: 50.0,
             sound_speed: None,
         };
-        assert_eq!([0.0, 49.9, 50.0, 99.9, 100.0].map(|time| transponder.is_heard(time)), [true, true, false, false, true]);
+        assert_eq!(
+            [0.0, 49.9, 50.0, 99.9, 100.0].map(|time| transponder.is_heard(time)),
+            [true, true, false, false, true]
+        );
         assert_eq!(transponder.place(100.0), [20.0, 20.0, 2.0]);
     }
 }

@@ -36,9 +36,8 @@ pub fn derivative(
     let turn = gyro.map_or_else(Vector3::zeros, |gyro| gyro - part(state, GYRO_BIAS));
     let velocity = part(state, VELOCITY);
     let position = attitude.to_ned(velocity.into()).into();
-    let acceleration = force.map_or_else(Vector3::zeros, |force| {
-        force - turn.cross(&velocity) - part(state, ACCELEROMETER_BIAS)
-    });
+    let acceleration =
+        force.map_or_else(Vector3::zeros, |force| force - turn.cross(&velocity) - part(state, ACCELEROMETER_BIAS));
     let still = Vector3::zeros();
     let parts = [rates(attitude) * turn, still, position, acceleration, still];
     SVector::from_fn(|i, _| parts[i / 3][i % 3])

@@ -46,7 +46,12 @@ impl Sensed {
             tell(format!("navigation.sigma.{state}"), unit, meaning, Some(sigma));
         }
         let normal = "1 on average where the navigator is right";
-        tell("navigation.nees".into(), "", format!("square of the error by its covariance: {normal}"), Some(errors.nees));
+        tell(
+            "navigation.nees".into(),
+            "",
+            format!("square of the error by its covariance: {normal}"),
+            Some(errors.nees),
+        );
         for (what, nis) in INNOVATIONS.into_iter().zip(errors.nis) {
             let meaning = format!("square of the innovation by its covariance: {normal}");
             tell(format!("navigation.nis.{what}"), "", meaning, nis);

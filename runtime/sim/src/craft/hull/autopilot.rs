@@ -1,12 +1,16 @@
 //! What holds a hull with fins on its course: heading by the rudder, depth by pitch and pitch by the stern plane, speed by the
 //! propeller.
 //!
-//! Classical cascaded control (Fossen 2021, ch. 15), ours in its numbers. A hull answers its fins the faster the faster it
-//! swims: lengths and angles of its motion stay the same, times shrink. So gains on angles are constant, and gains on rates
-//! fall as one over speed.
+//! Which law moves the fins is a [`Controller`]; what is asked of the propeller, at the surface, over a bottom and of a hull that
+//! stalls is the same with each.
+//!
+//! The law that is here is classical cascaded control (Fossen 2021, ch. 15), ours in its numbers. A hull answers its fins the faster
+//! the faster it swims: lengths and angles of its motion stay the same, times shrink. So gains on angles are constant, and gains on
+//! rates fall as one over speed.
 
-use super::actuators::ActuatorLimits;
-use super::six_dof::{Controls, Load, Plant, attitude_of};
+use super::lqr::{Controller, Goal, Lqr};
+use super::six_dof::{Controls, Load, Plant, State, attitude_of};
+use super::submersible::Settings;
 use albacore_geometry::math::{PI, sin};
 use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::{Command, TICK_S, Vertical};
@@ -85,7 +89,7 @@ const SPEED_MIN: f64 = 0.8;
 const BOTTOM_TIME: f64 = 1.0;
 const FALL_MAX: f64 = 0.5;
 /// Less deep than this a hull is at the surface, m.
-const AT_SURFACE: f64 = 0.1;
+pub(super) const AT_SURFACE: f64 = 0.1;
 /// One that is to be deeper than that has left it when it is this deep, m, or as deep as it is to be.
 const LEFT_SURFACE: f64 = 1.0;
 /// A hull this much too deep, in m, has stalled where its stern plane can do no more and its nose is still this much down,
@@ -97,26 +101,85 @@ const RECOVERED: f64 = 0.1;
 const MAP_SPEED: f64 = 2.0;
 
 /// What the autopilot knows of its hull.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
     /// Where the nose points.
     pub heading: Heading,
     /// Nose up, rad.
     pub pitch: f64,
-    /// How fast it pitches and yaws, rad/s, in the frame of the body.
+    /// How fast it pitches, rad/s, in the frame of the body.
     pub pitch_rate: f64,
+    /// How fast it yaws, likewise.
     pub yaw_rate: f64,
-    /// Depth, m, and that of the water.
+    /// Depth, m.
     pub depth: f64,
+    /// Depth of the water, m.
     pub water_depth: f64,
     /// Speed ahead through the water, m/s.
     pub speed: f64,
+    /// To starboard in the frame of the body, m/s; through the water, as forces are those of the water's flow past the hull: over
+    /// ground a steady current from the side would look like a sway that never ends.
+    pub sway: f64,
+    /// Down in the frame of the body, through the water, m/s.
+    pub heave: f64,
+}
+
+impl Sensed {
+    /// What perfect instruments tell of a state, in water that moves with `flow` and is so deep.
+    pub fn of(state: &State, flow: Vector, water_depth: f64) -> Self {
+        let [_, _, depth, _, pitch, yaw] = state.pose.into();
+        let [u, v, w, _, pitch_rate, yaw_rate] = state.velocity.into();
+        let [ahead, aside, down] = attitude_of(&state.pose).to_body([flow.north, flow.east, 0.0]);
+        Sensed {
+            heading: Heading::from_radians(yaw),
+            pitch,
+            pitch_rate,
+            yaw_rate,
+            depth,
+            water_depth,
+            speed: u - ahead,
+            sway: v - aside,
+            heave: w - down,
+        }
+    }
+}
+
+/// What an autopilot takes for so is so much more than what is so: the errors of its navigation. Velocities through the water are as
+/// they are: an inertial navigator has those over ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Misjudged {
+    /// rad, clockwise.
+    pub heading: f64,
+    /// rad, nose up.
+    pub pitch: f64,
+    /// rad/s, body.
+    pub pitch_rate: f64,
+    /// rad/s, body.
+    pub yaw_rate: f64,
+    /// m.
+    pub depth: f64,
+}
+
+impl Sensed {
+    /// The same with errors.
+    pub fn off_by(self, errors: &Misjudged) -> Self {
+        Sensed {
+            heading: self.heading + errors.heading,
+            pitch: self.pitch + errors.pitch,
+            pitch_rate: self.pitch_rate + errors.pitch_rate,
+            yaw_rate: self.yaw_rate + errors.yaw_rate,
+            depth: self.depth + errors.depth,
+            ..self
+        }
+    }
 }
 
 /// The autopilot of a hull, once a tick.
 #[derive(Clone, Debug)]
 pub struct Autopilot {
     gains: Gains,
+    /// What moves the fins in place of the cascade.
+    lqr: Option<Box<Lqr>>,
     fin_max: f64,
     rpm_max: f64,
     speed_max: f64,
@@ -136,10 +199,16 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// For a plant, with its gains, the limits of its actuators, and the greatest speed it is to go, m/s.
-    pub fn new<P: Plant>(plant: &P, gains: Gains, limits: &ActuatorLimits, speed_max: f64) -> Self {
+    /// For a plant, with what is set for it.
+    pub fn new<P: Plant>(plant: &P, settings: &Settings) -> Self {
+        let Settings { gains, limits, speed_max, .. } = *settings;
+        let lqr = match settings.controller {
+            Controller::Cascade => None,
+            Controller::Lqr2016(gains) => Some(Box::new(Lqr::new(gains, limits.fin, settings.step()))),
+        };
         Autopilot {
             gains,
+            lqr,
             fin_max: limits.fin,
             rpm_max: limits.rpm,
             speed_max,
@@ -166,7 +235,17 @@ impl Autopilot {
             Vertical::Depth(depth) => (depth, 0.0),
             Vertical::Altitude(altitude) => (sensed.water_depth - altitude, self.bottom_falls),
         };
-        let stern = self.stern(wanted_depth.max(0.0) - sensed.depth, sinking / speed, sensed, speed);
+        let slope = sinking / speed;
+        let (rudder, stern) = match &mut self.lqr {
+            Some(lqr) => {
+                lqr.head_for(Goal { heading: command.heading, depth: wanted_depth.max(0.0), slope });
+                self.fins_by_lqr(sensed)
+            }
+            None => {
+                let stern = self.stern(wanted_depth.max(0.0) - sensed.depth, slope, sensed, speed);
+                (self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed), stern)
+            }
+        };
         self.leaves_surface = match self.leaves_surface {
             true => sensed.depth < wanted_depth.min(LEFT_SURFACE),
             false => sensed.depth < AT_SURFACE && wanted_depth > 2.0 * AT_SURFACE,
@@ -178,17 +257,40 @@ impl Autopilot {
         };
         // A hull that is to make no way keeps none, unless it swims down: what it has of buoyancy takes it up.
         let way = if command.speed > 0.0 || self.stalled { command.speed.max(least) } else { command.speed };
-        Controls {
-            rudder: self.rudder(command.heading - sensed.heading, sensed.yaw_rate, speed),
-            stern,
-            rpm: self.rpm(way.clamp(0.0, self.speed_max), sensed.speed),
+        Controls { rudder, stern, rpm: self.rpm(way.clamp(0.0, self.speed_max), sensed.speed) }
+    }
+
+    /// Whether its law moves the fins at every step of the integration, and not once a tick.
+    pub fn steers_within_a_tick(&self) -> bool {
+        self.lqr.is_some()
+    }
+
+    /// What is to be done at a later step of a tick, at whose beginning that was `wanted`.
+    pub fn steer_on(&mut self, sensed: &Sensed, wanted: &Controls) -> Controls {
+        if !self.lqr.as_ref().is_some_and(|lqr| lqr.is_under_way()) {
+            return *wanted;
         }
+        let (rudder, stern) = self.fins_by_lqr(sensed);
+        Controls { rudder, stern, ..*wanted }
+    }
+
+    /// Rudder and stern plane within their limits. The law's angles are such that a positive one gives a positive moment: for the
+    /// rudder that is ours, and Prestero's plant turns it round once more; the stern plane of either plant presses the nose down.
+    fn fins_by_lqr(&mut self, sensed: &Sensed) -> (f64, f64) {
+        let Some(lqr) = &mut self.lqr else { return (0.0, 0.0) };
+        let (rudder, stern) = (lqr.rudder(sensed), -lqr.elevator(sensed));
+        let error = lqr.wanted_depth().unwrap_or(sensed.depth) - sensed.depth;
+        self.watch_stall(error, stern, sensed.pitch);
+        (rudder.clamp(-self.fin_max, self.fin_max), stern.clamp(-self.fin_max, self.fin_max))
     }
 
     /// Forgets what errors have lasted: of what held the hull meanwhile nothing is to be held against it.
     pub fn start_afresh(&mut self) {
         (self.rudder_trim, self.pitch_trim, self.speed_trim) = (0.0, 0.0, 0.0);
         (self.stalled, self.leaves_surface) = (false, false);
+        if let Some(lqr) = &mut self.lqr {
+            lqr.start_afresh();
+        }
     }
 
     fn rudder(&mut self, error: f64, rate: f64, speed: f64) -> f64 {
@@ -218,10 +320,7 @@ impl Autopilot {
         let hold = gains.righting / (speed * speed) * sin(down);
         let asked = hold + gains.pitch * (down + sensed.pitch) + gains.pitch_rate / speed * sensed.pitch_rate;
         let stern = asked.clamp(-self.fin_max, self.fin_max);
-        self.stalled = match self.stalled {
-            true => error < -RECOVERED,
-            false => error < -STALLED && asked < -self.fin_max && sensed.pitch < -STALLED_PITCH,
-        };
+        self.watch_stall(error, asked, sensed.pitch);
         // Where fin or pitch is at its limit on the way there, an error tells nothing of the trim: to go on counting would only wind it up.
         let more = |asked: f64, given: f64| asked != given && (asked > 0.0) == (error > 0.0);
         // Nor where it has no way by which its fins lift it.
@@ -233,6 +332,14 @@ impl Autopilot {
             self.pitch_trim = trim.clamp(-PITCH_TRIM_MAX, PITCH_TRIM_MAX);
         }
         stern
+    }
+
+    /// Whether it sinks against a stern plane of which `asked` is asked; `error` is how much deeper it is to be.
+    fn watch_stall(&mut self, error: f64, asked: f64, pitch: f64) {
+        self.stalled = match self.stalled {
+            true => error < -RECOVERED,
+            false => error < -STALLED && asked < -self.fin_max && pitch < -STALLED_PITCH,
+        };
     }
 
     fn rpm(&mut self, wanted: f64, speed: f64) -> f64 {
@@ -280,7 +387,8 @@ const BISECTIONS: u32 = 60;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::craft::hull::{Crossflow, Fossen, Prestero};
+    use crate::craft::hull::actuators::ActuatorLimits;
+    use crate::craft::hull::{Controller, Crossflow, Fossen, Prestero};
 
     /// Turns asked for at a speed, after half a minute in which the hull was far too fast for them.
     fn after_coasting(mut autopilot: Autopilot) -> [f64; 2] {
@@ -291,9 +399,15 @@ mod tests {
 
     #[test]
     fn what_only_drag_can_mend_is_not_counted() {
-        let limits = ActuatorLimits { rpm: 2500.0, ..ActuatorLimits::default() };
-        let fossen = Autopilot::new(&Fossen::new(), Gains::FOSSEN, &limits, 2.5);
-        let prestero = Autopilot::new(&Prestero::new(Crossflow::Corrected), Gains::PRESTERO, &limits, 2.5);
+        let settings = |gains: Gains| Settings {
+            steps: 10,
+            speed_max: 2.5,
+            limits: ActuatorLimits { rpm: 2500.0, ..ActuatorLimits::default() },
+            gains,
+            controller: Controller::Cascade,
+        };
+        let fossen = Autopilot::new(&Fossen::new(), &settings(Gains::FOSSEN));
+        let prestero = Autopilot::new(&Prestero::new(Crossflow::Corrected), &settings(Gains::PRESTERO));
         for [before, after] in [after_coasting(fossen), after_coasting(prestero)] {
             assert!((before - after).abs() < 1e-9 && before > 100.0, "{before} and {after} turns a minute");
         }

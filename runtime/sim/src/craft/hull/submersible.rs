@@ -1,9 +1,10 @@
 //! A hull that forces move: plant, actuators and autopilot.
 
 use super::actuators::{ActuatorLimits, Actuators};
-use super::autopilot::{Autopilot, Gains, Sensed};
+use super::autopilot::{Autopilot, Gains, Misjudged, Sensed};
 use super::grounding::{Grounding, Intent, pivot};
-use super::six_dof::{Controls, Plant, State, Surroundings, attitude_of, runge_kutta};
+use super::lqr::Controller;
+use super::six_dof::{Plant, State, Surroundings, attitude_of, runge_kutta};
 use super::surface::{Body, Surface};
 use super::{Diverged, Motion, StartPose, Track};
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
@@ -21,6 +22,15 @@ pub struct Settings {
     pub limits: ActuatorLimits,
     /// The gains of its autopilot.
     pub gains: Gains,
+    /// What moves its fins.
+    pub controller: Controller,
+}
+
+impl Settings {
+    /// Time step of the integration, s.
+    pub fn step(&self) -> f64 {
+        TICK_S / f64::from(self.steps)
+    }
 }
 
 /// A submersible under way.
@@ -30,6 +40,8 @@ pub struct Submersible<P> {
     state: State,
     /// Fins and propeller: also what is stuck of them.
     pub actuators: Actuators,
+    /// What its autopilot is told with errors.
+    pub misjudged: Misjudged,
     /// Water that came in: buoyancy lost, N.
     pub buoyancy_loss: f64,
     autopilot: Autopilot,
@@ -39,6 +51,8 @@ pub struct Submersible<P> {
     grounding: Option<Grounding>,
     steps: u32,
     motion: Motion,
+    /// How the water about it moved in the last tick.
+    flow: Vector,
 }
 
 impl<P: Plant> Submersible<P> {
@@ -50,39 +64,24 @@ impl<P: Plant> Submersible<P> {
         let state = State { pose, velocity: Vector6::new(u, v, w, 0.0, 0.0, 0.0) };
         let motion = berth.motion();
         Submersible {
-            actuators: Actuators::new(settings.limits, TICK_S / f64::from(settings.steps)),
-            autopilot: Autopilot::new(&plant, settings.gains, &settings.limits, settings.speed_max),
+            actuators: Actuators::new(settings.limits, settings.step()),
+            autopilot: Autopilot::new(&plant, settings),
             surface: Surface::new(body),
             length: body.length,
             grounding: None,
             plant,
             state,
+            misjudged: Misjudged::default(),
             buoyancy_loss: 0.0,
             steps: settings.steps,
             motion,
+            flow,
         }
     }
 
     /// Where it is and how it moves.
     pub fn motion(&self) -> &Motion {
         &self.motion
-    }
-
-    /// What its autopilot and its actuators make of a command in the coming tick.
-    fn controls(&mut self, command: Option<&Command>, water_depth: f64) -> Controls {
-        let [_, _, depth, _, pitch, _] = self.state.pose.into();
-        let [_, _, _, _, pitch_rate, yaw_rate] = self.state.velocity.into();
-        let sensed = Sensed {
-            heading: self.motion.heading,
-            pitch,
-            pitch_rate,
-            yaw_rate,
-            depth,
-            water_depth,
-            speed: self.motion.speed,
-        };
-        let wanted = self.autopilot.steer(&sensed, command);
-        self.actuators.within_limits(&wanted)
     }
 
     /// Lets one tick go by, in water that moves with `flow`. `water_depth` tells the depth of the water at a point. If the
@@ -96,15 +95,26 @@ impl<P: Plant> Submersible<P> {
         water_depth: impl Fn(Point) -> f64,
         mut track: Option<&mut Track>,
     ) -> Result<(), Diverged> {
+        let misjudged = self.misjudged;
+        // Asked whenever the fins are moved: once a tick by the cascade, at every step of the integration by the regulator of the 2016
+        // paper.
+        let told =
+            |state: &State, flow: Vector, water_depth: f64| Sensed::of(state, flow, water_depth).off_by(&misjudged);
         let before = self.motion.position;
-        let goal = self.controls(command, water_depth(before));
+        let here = water_depth(before);
+        let wanted = self.autopilot.steer(&told(&self.state, self.flow, here), command);
+        let mut goal = self.actuators.within_limits(&wanted);
         let around = Surroundings { current: flow, buoyancy_loss: self.buoyancy_loss, surface: Some(self.surface) };
         let h = TICK_S / f64::from(self.steps);
         let mut state = self.state;
         if let Some(track) = &mut track {
             track.begin(&state);
         }
-        for _ in 0..self.steps {
+        for step in 0..self.steps {
+            if step > 0 && self.autopilot.steers_within_a_tick() {
+                let wanted = self.autopilot.steer_on(&told(&state, flow, here), &wanted);
+                goal = self.actuators.within_limits(&wanted);
+            }
             let controls = self.actuators.step(&goal);
             state = runge_kutta(&self.plant, &state, &controls, &around, h);
             if let Some(track) = &mut track {
@@ -145,7 +155,7 @@ impl<P: Plant> Submersible<P> {
     fn observe(&mut self, before: Point, flow: Vector) {
         let [north, east, depth, roll, pitch, yaw] = self.state.pose.into();
         let position = Point::new(north, east);
-        let [ahead, ..] = attitude_of(&self.state.pose).to_body([flow.north, flow.east, 0.0]);
+        self.flow = flow;
         self.motion = Motion {
             position,
             heading: Heading::from_radians(yaw),
@@ -153,7 +163,7 @@ impl<P: Plant> Submersible<P> {
             roll,
             // At the surface it may lie a little out of the water.
             depth: depth.max(0.0),
-            speed: self.state.velocity[0] - ahead,
+            speed: Sensed::of(&self.state, flow, 0.0).speed,
             ground_velocity: (1.0 / TICK_S) * (position - before),
             aground: self.grounding.is_some(),
         };

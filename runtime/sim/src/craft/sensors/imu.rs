@@ -71,14 +71,17 @@ impl InertialUnit {
         let (samples, time) = self.samples();
         let steps = track.steps() / samples;
         for sample in 0..samples {
-            let (Some(before), Some(after)) = (track.states.get(sample * steps), track.states.get((sample + 1) * steps))
+            let (Some(before), Some(after)) =
+                (track.states.get(sample * steps), track.states.get((sample + 1) * steps))
             else {
                 return;
             };
             let (turn, force) = felt(before, after, time);
             let index = 3 * (tick * samples as u64 + sample as u64);
             let noisy = |true_value: Vector3<f64>, bias: f64, deviation: f64, noise: Noise| {
-                std::array::from_fn::<f64, 3, _>(|i| true_value[i] + bias + deviation * noise.gaussian(index + i as u64))
+                std::array::from_fn::<f64, 3, _>(|i| {
+                    true_value[i] + bias + deviation * noise.gaussian(index + i as u64)
+                })
             };
             let step = sample as u16;
             let turn = noisy(turn, s.gyro_bias, s.gyro_noise, self.gyro);

@@ -1,6 +1,5 @@
 //! The instruments of inertial navigation together: what they tell in a tick, and what a navigator is given of it.
 
-use super::{AttitudeSensor, Compass, Imu, InstrumentSetup};
 use super::attitude::AttitudeGauge;
 use super::dvl::Dvl;
 use super::imu::InertialUnit;
@@ -8,6 +7,7 @@ use super::pressure::Pressure;
 use super::raw::{RawSample, RawSensor};
 use super::receivers::ReceiverArray;
 use super::velocity_model::VelocityModel;
+use super::{AttitudeSensor, Compass, Imu, InstrumentSetup};
 use crate::craft::hull::{StartPose, State, Track, attitude_of};
 use crate::craft::setup::HullSetup;
 use crate::noise::Noise;
@@ -18,8 +18,8 @@ use crate::world::transponder::Transponder;
 use albacore_geometry::{Attitude, Point, Vector, wrap_angle};
 use albacore_navigation::ukf::{Aiding, Ins15Setup, InsState, Velocity};
 use albacore_navigation::{Departure, Inertial, InertialSettings, Navigator, Raw};
-use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors, TICK_S};
 use albacore_vehicle::rate::is_due;
+use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors, TICK_S};
 
 /// What is measured without noise counts as measured this well, m of water and m/s: a filter has to weigh it.
 const DEPTH_SIGMA_MIN: f64 = 0.005;
@@ -161,8 +161,7 @@ impl InertialSuite {
             return;
         }
         let bias = [s.bias, 0.0, 0.0];
-        let told =
-            |i: usize| state.velocity[i] + bias[i] + s.noise * self.dvl_noise.gaussian(3 * tick + i as u64);
+        let told = |i: usize| state.velocity[i] + bias[i] + s.noise * self.dvl_noise.gaussian(3 * tick + i as u64);
         raw.push(RawSample::new(RawSensor::DopplerLog, step, std::array::from_fn::<f64, 3, _>(told)));
     }
 
@@ -256,7 +255,10 @@ pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, hull: &HullS
     issues.of("imu").unless(
         Some("rate"),
         (steps as usize).is_multiple_of(samples) && (setup.imu.rate * TICK_S - samples as f64).abs() < 1e-9,
-        format!("the hull moves in {steps} steps a tick of 100 ms: an inertial unit of {} Hz does not go into them", number(setup.imu.rate)),
+        format!(
+            "the hull moves in {steps} steps a tick of 100 ms: an inertial unit of {} Hz does not go into them",
+            number(setup.imu.rate)
+        ),
         "take a rate such as 10, 50 or 100 Hz, or another `step` of the hull",
     );
     let models = setup.inertial().is_some_and(|inertial| inertial.model);
@@ -276,8 +278,7 @@ pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, hull: &HullS
 
 /// The states in the order of [`NavigationErrors`].
 fn numbers(state: &InsState) -> [f64; NAVIGATION_STATES] {
-    let parts =
-        [state.attitude, state.gyro_bias, state.position, state.velocity, state.accelerometer_bias];
+    let parts = [state.attitude, state.gyro_bias, state.position, state.velocity, state.accelerometer_bias];
     std::array::from_fn(|i| parts[i / 3][i % 3])
 }
 

@@ -8,10 +8,10 @@ use super::positioning::Positioning;
 use super::raw::RawSample;
 use super::{Instrument, InstrumentSetup, Surroundings};
 use crate::craft::fault::Faults;
-use crate::craft::hull::{Motion, StartPose, State, Track};
+use crate::craft::hull::{Misjudged, Motion, StartPose, State, Track};
 use crate::craft::setup::HullSetup;
 use crate::world::World;
-use albacore_geometry::{Heading, Point, Vector};
+use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_navigation::{Estimate, Inertial, InertialSettings};
 use albacore_vehicle::measurements::{COURSE, DEPTH, HEADING, POSITION, SPEED};
 use albacore_vehicle::{NavigationErrors, Snapshot, TICK_S};
@@ -79,6 +79,20 @@ impl OnboardNavigation {
     /// How far that is off, of a hull in a state.
     pub fn errors(&self, state: &State) -> Option<NavigationErrors> {
         Some(self.suite.as_ref()?.errors(self.inertial()?, state))
+    }
+
+    /// What an autopilot goes by that is told by an inertial navigator, of a hull in a state.
+    pub fn misjudged(&self, state: &State) -> Option<Misjudged> {
+        let inertial = self.inertial()?;
+        let believed = inertial.state();
+        let [_, pitch_rate, yaw_rate] = inertial.rates();
+        Some(Misjudged {
+            heading: wrap_angle(believed.attitude[2] - state.pose[5]),
+            pitch: believed.attitude[1] - state.pose[4],
+            pitch_rate: pitch_rate - state.velocity[4],
+            yaw_rate: yaw_rate - state.velocity[5],
+            depth: believed.position[2] - state.pose[2],
+        })
     }
 
     /// What it has noticed since this was last asked.

@@ -284,8 +284,7 @@ mod tests {
     #[test]
     fn a_late_fix_is_of_where_the_vehicle_was() {
         let lbl = Lbl { every: 10.0, sigma: 0.0, delay: 2.0, ..Lbl::default() };
-        let mut own =
-            begun(&Navigation { navigator: PERFECT, lbl: Some(lbl) }, None, 1);
+        let mut own = begun(&Navigation { navigator: PERFECT, lbl: Some(lbl) }, None, 1);
         let at = |tick: u64| Point::new(0.2 * tick as f64, 0.0);
         let errors: Vec<f64> = (1..=130)
             .map(|tick| {

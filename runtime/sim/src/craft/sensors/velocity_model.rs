@@ -103,8 +103,7 @@ impl VelocityModel {
             let column = slope(self.acceleration(attitude, self.velocity, rates, &moved), SMALL);
             pushes.set_column(axis, &(column * TICK_S));
         }
-        let grown =
-            keeps * self.covariance * keeps.transpose() + pushes * pushes.transpose() * CONTROL_VARIANCE;
+        let grown = keeps * self.covariance * keeps.transpose() + pushes * pushes.transpose() * CONTROL_VARIANCE;
         // Eq. (11) has no end where the model is not stable.
         let most = SIGMA_MAX * SIGMA_MAX;
         self.covariance = if grown.trace() < 3.0 * most { grown } else { Matrix3::identity() * most };

@@ -1,9 +1,10 @@
 //! How both hulls answer their autopilots, and what becomes of them when something fails.
 
-use crate::craft::hull::{Crossflow, Hull, Motion, Stuck};
-use crate::craft::setup::{HullSetup, SubmersibleHull, VehicleSetup};
+use crate::craft::hull::trial::{Trial, response};
+use crate::craft::hull::{Controller, Crossflow, Motion, Stuck};
+use crate::craft::setup::{HullSetup, SubmersibleHull};
 use albacore_geometry::math::{degrees, radians};
-use albacore_geometry::{Heading, Point, Vector};
+use albacore_geometry::{Heading, Vector};
 use albacore_vehicle::{Command, TICK_S, Vertical};
 
 /// The hull after Fossen.
@@ -19,52 +20,6 @@ fn prestero() -> HullSetup {
 /// A hull by its name.
 type Named = (&'static str, fn() -> HullSetup);
 const HULLS: [Named; 2] = [("fossen", fossen), ("prestero", prestero)];
-
-/// A hull under way, and what is asked of it.
-struct Trial {
-    hull: Hull,
-    flow: Vector,
-    bottom: fn(Point) -> f64,
-}
-
-impl Trial {
-    /// At rest, 5 m deep in water of 50 m.
-    fn new(hull: HullSetup) -> Self {
-        Trial::at(hull, 5.0)
-    }
-
-    fn at(hull: HullSetup, depth: f64) -> Self {
-        let setup = VehicleSetup { hull, depth, ..VehicleSetup::default() };
-        Trial { hull: Hull::new(&setup, Vector::ZERO, 1), flow: Vector::ZERO, bottom: |_| 50.0 }
-    }
-
-    fn obey(&mut self, command: Option<Command>, seconds: f64) -> Vec<Motion> {
-        (0..(seconds / TICK_S).round() as u64)
-            .map(|tick| {
-                self.hull.step(tick, command.as_ref(), self.flow, self.bottom, None).unwrap();
-                *self.hull.motion()
-            })
-            .collect()
-    }
-
-    fn go(&mut self, heading_deg: f64, speed: f64, vertical: Vertical, seconds: f64) -> Vec<Motion> {
-        self.obey(Some(Command::new(Heading::from_degrees(heading_deg), speed, vertical)), seconds)
-    }
-
-    /// Running north at 2 m/s and 5 m depth.
-    fn cruising(hull: HullSetup) -> Self {
-        let mut trial = Trial::new(hull);
-        trial.go(0.0, 2.0, Vertical::Depth(5.0), 90.0);
-        trial
-    }
-}
-
-/// When the last of the values was further than `band` from the goal, s; and how far beyond it any of them went.
-fn response(values: impl Iterator<Item = f64> + Clone, goal: f64, band: f64) -> (f64, f64) {
-    let outside = values.clone().enumerate().filter(|(_, value)| (value - goal).abs() > band).last();
-    let settled = outside.map_or(0.0, |(tick, _)| (tick + 1) as f64 * TICK_S);
-    (settled, values.map(|value| value - goal).fold(0.0, f64::max))
-}
 
 #[test]
 fn a_quarter_turn_settles_without_much_overshoot() {
@@ -264,6 +219,7 @@ fn within_its_bounds_no_hull_runs_away() {
                 fin_max,
                 turns_max: *SubmersibleHull::TURNS_MAX.end(),
                 speed_max: *SubmersibleHull::SPEED_MAX.end(),
+                controller: Controller::Cascade,
             };
             for hull in [
                 HullSetup::Fossen(corner()),
