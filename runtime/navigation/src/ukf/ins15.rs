@@ -134,7 +134,8 @@ impl Ins15 {
         let turn_sigma = if gyro.is_some() { setup.gyro_sigma } else { setup.unmeasured_turn };
         let force_sigma = if force.is_some() { setup.accelerometer_sigma } else { setup.unmeasured_acceleration };
         let sigmas = StepSigmas { turn: turn_sigma, velocity: setup.velocity_sigma, acceleration: force_sigma };
-        let noise = process_noise(angles.of(self.filter.state()), &sigmas, time);
+        let mut noise = process_noise(angles.of(self.filter.state()), &sigmas, time);
+        noise[(POSITION + 2, POSITION + 2)] += 2.0 * setup.tilt_time * time * self.sinking_variance();
         let at_rest = at_rest(setup.gravity).into();
         let process = |state: &SVector<f64, 15>| {
             let angles = angles.of(state);
@@ -142,6 +143,13 @@ impl Ins15 {
             state + derivative(state, angles, gyro.as_ref(), force.as_ref()) * time
         };
         self.filter.predict(process, &noise)
+    }
+
+    /// The variance of what tilt and velocity make of each other in the rate of depth, m2/s2: their product, which sigma points that lie on
+    /// the axes of both do not see. It matters where the velocity is not known, and a pressure sensor tells the depth to a centimetre.
+    fn sinking_variance(&self) -> f64 {
+        let variance = |state: usize| self.filter.variance(state);
+        variance(ATTITUDE + 1) * variance(VELOCITY) + variance(ATTITUDE) * variance(VELOCITY + 1)
     }
 
     /// Becomes less sure of each state by a standard deviation: of one that measurements have contradicted.
