@@ -15,8 +15,6 @@ const GATE_1: f64 = 10.83;
 const GATE_2: f64 = 13.82;
 const GATE_3: f64 = 16.27;
 const GATE_5: f64 = 20.52;
-/// For how long errors of roll and pitch stay alike, s: the root of what attitude samples tell in a second by what gyroscopes miss in one.
-const TILT_TIME: f64 = 30.0;
 /// So many samples of an inertial unit that are the same to the bit: it is stuck. White noise never is.
 const STUCK_SAMPLES: u32 = 5;
 /// A unit that tells nothing, or the same, for so long is told of, s.
@@ -89,6 +87,8 @@ pub struct Settings {
     pub range_error: f64,
     /// Whether the hull's own equations give the velocity while the Doppler log is silent.
     pub model: bool,
+    /// Whether the velocity is known to be one of which the hull is capable, while nothing tells it.
+    pub bounded: bool,
 }
 
 /// The navigator of a vehicle with an inertial unit, and with what aids it: attitude, pressure, velocity, a transponder, fixes.
@@ -132,7 +132,7 @@ impl Inertial {
             arrival: Some(GATE_5),
         };
         Ok(Inertial {
-            filter: Ins15::new(Ins15Setup { gates, arrival_sigma, finds: true, tilt_time: TILT_TIME, ..*setup }, state, sigma)?,
+            filter: Ins15::new(Ins15Setup { gates, arrival_sigma, finds: true, complete_noise: true, ..*setup }, state, sigma)?,
             time: 0.0,
             rates: [0.0; 3],
             gyro: Unit::new("gyroscope"),

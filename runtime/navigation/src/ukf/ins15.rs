@@ -15,7 +15,7 @@ use super::component::Component;
 use super::filter::{Innovation, Measurement, Ukf, UkfError};
 use attitude::Trigonometry;
 use bearing::Bearing;
-use kinematics::{ATTITUDE, POSITION, StepSigmas, VELOCITY, at_rest, derivative, part, process_noise};
+use kinematics::{ATTITUDE, POSITION, StepSigmas, VELOCITY, add_turned, at_rest, derivative, part, process_noise};
 use nalgebra::{SMatrix, SVector, Vector3};
 
 /// The 15 states, Eq. (15); also the standard deviations of their errors.
@@ -63,6 +63,8 @@ pub struct Aiding {
     pub velocity: Option<Velocity>,
     /// Of the hull's equations, Eq. (10), with the noise of Eq. (11).
     pub modelled: Option<Velocity>,
+    /// What the velocity is known to be by nothing but what the hull can do: about 0.
+    pub bounded: Option<Velocity>,
     /// How long the transponder's signal took to each receiver, s, Eq. (12): of all five, or none. A clock that counts down has half
     /// its period added.
     pub arrival: Option<[f64; 5]>,
@@ -83,6 +85,8 @@ pub struct Aided {
     pub arrival: Option<Result<Innovation<5>, UkfError>>,
 }
 
+/// For how long errors of roll and pitch stay alike, s: some 30 s by Table 1, whose attitude sensor forgets what gyroscopes miss in that time.
+const TILT_S: f64 = 30.0;
 /// The place is not known where its standard deviation is more than this share of the range to the transponder.
 const LOST: f64 = 0.1;
 
@@ -135,7 +139,10 @@ impl Ins15 {
         let force_sigma = if force.is_some() { setup.accelerometer_sigma } else { setup.unmeasured_acceleration };
         let sigmas = StepSigmas { turn: turn_sigma, velocity: setup.velocity_sigma, acceleration: force_sigma };
         let mut noise = process_noise(angles.of(self.filter.state()), &sigmas, time);
-        noise[(POSITION + 2, POSITION + 2)] += 2.0 * setup.tilt_time * time * self.sinking_variance();
+        if setup.complete_noise {
+            add_turned(&mut noise, angles.of(self.filter.state()), &part(self.filter.state(), VELOCITY), turn_sigma * time);
+            noise[(POSITION + 2, POSITION + 2)] += 2.0 * TILT_S * time * self.sinking_variance();
+        }
         let at_rest = at_rest(setup.gravity).into();
         let process = |state: &SVector<f64, 15>| {
             let angles = angles.of(state);
@@ -180,6 +187,15 @@ impl Ins15 {
 
     /// Takes what came, one after the other in the order of [`Aiding`]'s fields. One that fails or is held back leaves the others theirs.
     pub fn aid(&mut self, aiding: &Aiding) -> Aided {
+        let told = self.aid_by_instruments(aiding);
+        if let Some(bounded) = &aiding.bounded {
+            // It tells nothing of the filter: what goes wrong leaves it as it is.
+            let _ = self.take_velocity(bounded);
+        }
+        told
+    }
+
+    fn aid_by_instruments(&mut self, aiding: &Aiding) -> Aided {
         Aided {
             attitude: aiding.attitude.map(|value| self.take_attitude(value)),
             pressure: aiding.pressure.map(|value| self.take_pressure(value)),

@@ -31,22 +31,19 @@ impl Bearing {
         }
         let direction: Vector3<f64> = square.try_inverse()? * fall;
         let mut way = centre + direction.try_normalize(f64::MIN_POSITIVE)? * mean;
-        let (mut information, mut residual) = (Matrix3::zeros(), 0.0);
-        for _ in 0..STEPS {
-            let mut pull = Vector3::zeros();
-            (information, residual) = (Matrix3::zeros(), 0.0);
-            for (receiver, range) in receivers.iter().zip(ranges) {
-                let arm = way - receiver;
-                let (length, unit) = (arm.norm(), arm.try_normalize(f64::MIN_POSITIVE)?);
-                information += unit * unit.transpose();
-                pull += unit * (range - length);
-                residual += (range - length) * (range - length);
+        let (mut best, mut best_residual) = (way, f64::INFINITY);
+        for _ in 0..=STEPS {
+            let (information, pull, residual) = fit(&way, ranges, &receivers)?;
+            // From nearby a step may lead astray: the best so far counts.
+            if residual < best_residual {
+                (best, best_residual) = (way, residual);
             }
             way += information.try_inverse()? * pull;
         }
+        let (information, _, residual) = fit(&best, ranges, &receivers)?;
         let covariance = information.try_inverse()? * (sigma * sigma);
-        let is_sound = way.iter().chain(covariance.iter()).all(|x| x.is_finite());
-        is_sound.then_some(Bearing { way, covariance, residual: residual / (sigma * sigma) })
+        let is_sound = best.iter().chain(covariance.iter()).all(|x| x.is_finite());
+        is_sound.then_some(Bearing { way: best, covariance, residual: residual / (sigma * sigma) })
     }
 
     /// The greatest variance of the way across itself, m2.
@@ -56,6 +53,23 @@ impl Bearing {
         let values: SVector<f64, 3> = (across * self.covariance * across).symmetric_eigenvalues();
         values.max()
     }
+}
+
+/// The information that ranges have of a way, what they pull it by, and the sum of the squares of what they are off by, m2.
+fn fit(
+    way: &Vector3<f64>,
+    ranges: &[f64; 5],
+    receivers: &[Vector3<f64>; 5],
+) -> Option<(Matrix3<f64>, Vector3<f64>, f64)> {
+    let (mut information, mut pull, mut residual) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
+    for (receiver, range) in receivers.iter().zip(ranges) {
+        let arm = way - receiver;
+        let (off, unit) = (range - arm.norm(), arm.try_normalize(f64::MIN_POSITIVE)?);
+        information += unit * unit.transpose();
+        pull += unit * off;
+        residual += off * off;
+    }
+    Some((information, pull, residual))
 }
 
 #[cfg(test)]

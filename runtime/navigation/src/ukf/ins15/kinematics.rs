@@ -67,3 +67,15 @@ pub fn process_noise(attitude: Attitude, sigmas: &StepSigmas, time: f64) -> SMat
     }
     noise
 }
+
+/// Adds what (16) leaves out: the noise of the gyroscopes, an angle of this standard deviation (rad) in a step, turns the velocity in the body's
+/// frame as it turns the body. At 1.5 m/s that is nothing; a velocity that is lost may be believed to be 40 m/s.
+#[inline]
+pub fn add_turned(noise: &mut SMatrix<f64, 15, 15>, attitude: Attitude, velocity: &Vector3<f64>, sigma: f64) {
+    let turned = velocity.cross_matrix() * sigma;
+    let with_attitude = turned * (rates(attitude) * sigma).transpose();
+    let mut block = noise.fixed_view_mut::<3, 3>(VELOCITY, VELOCITY);
+    block += turned * turned.transpose();
+    noise.fixed_view_mut::<3, 3>(VELOCITY, ATTITUDE).copy_from(&with_attitude);
+    noise.fixed_view_mut::<3, 3>(ATTITUDE, VELOCITY).copy_from(&with_attitude.transpose());
+}

@@ -29,9 +29,9 @@ pub struct Ins15Setup {
     /// straight function of a state that is known to 100 m, after a silence: believed as they are they make the filter too sure of
     /// yaw and place (5 % of errors beyond three deviations, 0.5 % with eleven times the deviation; `tests/ukf/long_run.rs`).
     pub arrival_sigma: f64,
-    /// For how long the errors of roll and pitch stay alike, s; 0: what they make of the depth together with those of the velocity is
-    /// left out, as in the paper.
-    pub tilt_time: f64,
+    /// Whether the noise of a step has what Eq. (16) leaves out: what the gyroscopes' does to the velocity, and what errors of tilt and
+    /// velocity make of each other in the depth. Both matter where the velocity is lost.
+    pub complete_noise: bool,
     /// Whether a place that is hardly known is found anew by times of arrival, instead of corrected by them.
     pub finds: bool,
     /// Of the water, kg/m3.
@@ -82,7 +82,7 @@ impl Default for Ins15Setup {
             // 1 / sqrt(3) us, and a clock of 500 kHz.
             arrival_sigma: 0.816e-6,
             finds: false,
-            tilt_time: 0.0,
+            complete_noise: false,
             density: 1025.0,
             gravity: 9.81,
             sound_speed: 1500.0,

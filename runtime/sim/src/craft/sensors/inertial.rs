@@ -30,6 +30,12 @@ const ACCELEROMETER_BIAS_SIGMA_MIN: f64 = 1e-2;
 /// How well depth and velocity are known when a run begins, m and m/s.
 const START_DEPTH_SIGMA: f64 = 0.1;
 const START_VELOCITY_SIGMA: f64 = 0.5;
+/// A current is no faster than this where a vehicle swims, m/s.
+const CURRENT_MAX: f64 = 1.0;
+/// The velocity is bounded when nothing has told it for so many ticks, once in so many, and stays alike for so long, s.
+const UNTOLD_TICKS: u64 = 50;
+const BOUND_TICKS: u64 = 10;
+const BOUND_STEADY_S: f64 = 100.0;
 /// How fast sound is taken to be where nothing tells it, m/s.
 const SOUND_SPEED: f64 = 1500.0;
 
@@ -50,6 +56,10 @@ pub struct InertialSuite {
     gauge: [f64; 3],
     /// What gives a velocity where the log is silent.
     model: Option<VelocityModel>,
+    /// What bounds the velocity while nothing tells it, m/s.
+    bound: Option<f64>,
+    /// Ticks since something told it.
+    untold: u64,
 }
 
 /// What the filter is told of the instruments of a scenario.
@@ -117,6 +127,8 @@ impl InertialSuite {
             weight: told.density * told.gravity,
             gauge: told.pressure_sensor,
             model: VelocityModel::new(hull).filter(|_| settings.model),
+            bound: settings.bounded.then(|| hull.speed_max() + CURRENT_MAX),
+            untold: 0,
         }
     }
 
@@ -199,6 +211,14 @@ impl InertialSuite {
         }
     }
 
+    /// Once a second, when the velocity has not been told for a while: that the vehicle is no faster than it can be. It is the same for long,
+    /// and so each time tells little.
+    fn bounded(&self, tick: u64) -> Option<Velocity> {
+        let bound = self.bound.filter(|_| self.untold > UNTOLD_TICKS && tick.is_multiple_of(BOUND_TICKS))?;
+        let variance = bound * bound / 3.0 * BOUND_STEADY_S;
+        Some(Velocity { value: [0.0; 3], noise: diagonal(variance) })
+    }
+
     /// Gives a navigator the samples of a tick as they came, in which the hull moved so.
     pub fn feed(&mut self, tick: u64, samples: &[RawSample], track: &Track, navigator: &mut dyn Navigator) {
         let (steps, time) = self.unit.samples();
@@ -211,7 +231,7 @@ impl InertialSuite {
         let last = |sensor| samples.iter().rfind(|s| s.sensor == sensor);
         let sigma = self.dvl.noise.max(VELOCITY_SIGMA_MIN);
         let variance = sigma * sigma;
-        let noise = [[variance, 0.0, 0.0], [0.0, variance, 0.0], [0.0, 0.0, variance]];
+        let noise = diagonal(variance);
         let measured = last(RawSensor::DopplerLog).map(|sample| Velocity { value: sample.array(), noise });
         let modelled = match (&mut self.model, navigator.inertial()) {
             (Some(model), Some(inertial)) => {
@@ -220,11 +240,13 @@ impl InertialSuite {
             }
             _ => None,
         };
+        self.untold = if measured.or(modelled).is_some() { 0 } else { self.untold + 1 };
         let aiding = Aiding {
             attitude: last(RawSensor::Attitude).map(RawSample::array),
             pressure: last(RawSensor::Pressure).map(|sample| self.weight * sample.array::<1>()[0]),
             velocity: measured,
             modelled,
+            bounded: self.bounded(tick),
             arrival: self.receivers.as_ref().and_then(|receivers| {
                 last(RawSensor::Receivers).map(|sample| sample.array::<5>().map(|told| receivers.expected(told)))
             }),
@@ -274,6 +296,11 @@ pub(super) fn check(setup: &InstrumentSetup, has_transponder: bool, hull: &HullS
         "an inertial navigator has no use for a compass: its heading is that of the `attitude` sensor",
         "write `attitude(yaw_noise: …)` instead",
     );
+}
+
+/// The covariance of three independent errors of one variance.
+fn diagonal(variance: f64) -> [[f64; 3]; 3] {
+    [[variance, 0.0, 0.0], [0.0, variance, 0.0], [0.0, 0.0, variance]]
 }
 
 /// The states in the order of [`NavigationErrors`].
