@@ -42,6 +42,10 @@ pub struct Departure {
     pub sigma: InsState,
     /// See there.
     pub setup: Ins15Setup,
+    /// Whether the pressure is measured without noise, so that it may stay the same; and the velocity.
+    pub exact_pressure: bool,
+    /// See there.
+    pub exact_velocity: bool,
 }
 
 impl Default for NavigatorSetup {

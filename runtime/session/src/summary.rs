@@ -75,7 +75,9 @@ pub struct NavigationSummary {
     pub nees: f64,
     /// The innovations' squares by theirs, of each number: attitude, pressure, velocity, times of arrival.
     pub nis: [Option<f64>; 4],
-    /// For so long the place was farther off than expected, and nothing was told of it.
+    /// For so long the place was farther off than expected: by more than four standard deviations.
+    pub beyond_s: f64,
+    /// For so long of that the navigator told of nothing.
     pub unnoticed_s: f64,
 }
 

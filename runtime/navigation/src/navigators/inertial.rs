@@ -1,13 +1,14 @@
 //! Inertial navigation with the filter of 15 states, which watches whether its instruments agree with it.
 
 mod agreement;
+mod liveliness;
 
 use super::Departure;
 use crate::navigator::{Estimate, Fix, Navigator, Raw, Sensed};
 use crate::ukf::{Aiding, Imu, Innovation, Ins15, Ins15Gates, Ins15Setup, InsState, UkfError};
 use agreement::{Agreement, Turn};
 use albacore_geometry::Point;
-use albacore_geometry::math::PI;
+use liveliness::Liveliness;
 use serde::Deserialize;
 
 /// 99.9 % of the chi-square distribution, for 1, 2, 3 and 5 degrees of freedom: what is beyond is held back.
@@ -15,29 +16,24 @@ const GATE_1: f64 = 10.83;
 const GATE_2: f64 = 13.82;
 const GATE_3: f64 = 16.27;
 const GATE_5: f64 = 20.52;
-/// So many samples of an inertial unit that are the same to the bit: it is stuck. White noise never is.
-const STUCK_SAMPLES: u32 = 5;
-/// A unit that tells nothing, or the same, for so long is told of, s.
-const SILENT_S: f64 = 1.0;
-/// Another position counts as told lately for so long, s.
-const LATELY_S: f64 = 30.0;
+/// So many fixes in a row confirm the position.
+const CONFIRMED_FIXES: u32 = 5;
+/// Silence is told of after so long, s: of the inertial unit, and of the Doppler log.
+const UNIT_SILENT_S: f64 = 1.0;
+const LOG_SILENT_S: f64 = 10.0;
 /// A fix is never believed to less than this, m.
 const FIX_SIGMA_MIN: f64 = 0.01;
 
-/// What an instrument that goes on disagreeing may be right in: the filter becomes so unsure of it.
-const ATTITUDE_DOUBT: InsState = InsState { attitude: [0.3, 0.3, PI / 4.0], gyro_bias: [0.05; 3], ..NO_DOUBT };
-const DEPTH_DOUBT: InsState = InsState { position: [0.0, 0.0, 2.0], ..NO_DOUBT };
-const VELOCITY_DOUBT: InsState = InsState { velocity: [0.5; 3], accelerometer_bias: [0.1; 3], ..NO_DOUBT };
-const PLACE_DOUBT: InsState = InsState { position: [30.0, 30.0, 0.0], ..NO_DOUBT };
-/// Its next signal finds the place anew.
-const LOST_DOUBT: InsState = InsState { position: [1000.0, 1000.0, 0.0], ..NO_DOUBT };
-const NO_DOUBT: InsState = InsState {
-    attitude: [0.0; 3],
-    gyro_bias: [0.0; 3],
-    position: [0.0; 3],
-    velocity: [0.0; 3],
-    accelerometer_bias: [0.0; 3],
+/// Where an instrument goes on disagreeing the filter may be the one that is wrong, in anything: it becomes so unsure.
+const DOUBT: InsState = InsState {
+    attitude: [0.1, 0.1, 0.5],
+    gyro_bias: [0.03; 3],
+    position: [10.0, 10.0, 1.0],
+    velocity: [0.5; 3],
+    accelerometer_bias: [0.1; 3],
 };
+/// Where it is the transponder's place that disagrees, its next signal finds that anew, m.
+const LOST: f64 = 1000.0;
 
 /// The instruments that the filter takes, as they are told of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +47,9 @@ enum Source {
 }
 
 impl Source {
+    const ALL: [Source; 6] =
+        [Source::Attitude, Source::Pressure, Source::Velocity, Source::Model, Source::Receivers, Source::Fixes];
+
     const fn name(self) -> &'static str {
         match self {
             Source::Attitude => "attitude",
@@ -94,23 +93,27 @@ pub struct Settings {
 /// The navigator of a vehicle with an inertial unit, and with what aids it: attitude, pressure, velocity, a transponder, fixes.
 ///
 /// A sample whose normalised innovation squared is beyond 99.9 % of what is to be expected is held back. An instrument whose samples are
-/// held back for 5 s, or scatter more than they may over a minute, is told of; then the filter becomes less sure of what that instrument
-/// measures, so that it can follow if it was wrong itself. It tells when they agree again.
+/// held back for 5 s, or scatter more than they may over a minute, is told of. If its samples are held back the filter becomes unsure of itself
+/// and gives way, for it may be the one that is wrong. That the instrument agrees then proves nothing: the doubt stays until fixes confirm the
+/// position. An instrument that tells the same to the bit is stuck, and is not heard.
 #[derive(Clone, Debug)]
 pub struct Inertial {
     filter: Ins15,
     /// s since the beginning.
     time: f64,
-    /// Rates of turn without their bias, rad/s, body, as they were believed last.
-    rates: [f64; 3],
-    gyro: Unit,
-    accelerometer: Unit,
+    /// Rates of turn without their bias, rad/s, body; none while nothing tells them.
+    rates: Option<[f64; 3]>,
+    gyro: Liveliness<3>,
+    accelerometer: Liveliness<3>,
+    lively: Lively,
     attitude: Agreement,
     pressure: Agreement,
     velocity: Agreement,
     model: Agreement,
     receivers: Agreement,
     fixes: Agreement,
+    /// So many fixes in a row were believed.
+    confirmed: u32,
     nis: Nis,
     notices: Vec<String>,
 }
@@ -132,17 +135,23 @@ impl Inertial {
             arrival: Some(GATE_5),
         };
         Ok(Inertial {
-            filter: Ins15::new(Ins15Setup { gates, arrival_sigma, finds: true, complete_noise: true, ..*setup }, state, sigma)?,
+            filter: Ins15::new(
+                Ins15Setup { gates, arrival_sigma, finds: true, complete_noise: true, ..*setup },
+                state,
+                sigma,
+            )?,
             time: 0.0,
-            rates: [0.0; 3],
-            gyro: Unit::new("gyroscope"),
-            accelerometer: Unit::new("accelerometer"),
+            rates: None,
+            gyro: Liveliness::of("gyroscope", false, Some(UNIT_SILENT_S)),
+            accelerometer: Liveliness::of("accelerometer", false, Some(UNIT_SILENT_S)),
+            lively: Lively::new(departure),
             attitude: Agreement::of(3),
             pressure: Agreement::of(1),
             velocity: Agreement::of(3),
             model: Agreement::of(3),
             receivers: Agreement::of(5),
             fixes: Agreement::of(2),
+            confirmed: 0,
             nis: Nis::default(),
             notices: Vec::new(),
         })
@@ -163,8 +172,8 @@ impl Inertial {
         self.filter.filter().normalised(&(*error).into())
     }
 
-    /// Rates of turn without their bias, rad/s, body.
-    pub fn rates(&self) -> [f64; 3] {
+    /// Rates of turn without their bias, rad/s, body; none while nothing tells them.
+    pub fn rates(&self) -> Option<[f64; 3]> {
         self.rates
     }
 
@@ -173,10 +182,13 @@ impl Inertial {
         &self.nis
     }
 
-    /// Whether an instrument disagrees now, or the inertial unit tells nothing.
+    /// Whether an instrument disagrees now or did so until the filter gave way, or is stuck, or the inertial unit tells nothing.
     pub fn is_doubted(&self) -> bool {
         let disagrees = [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
-        disagrees.into_iter().any(Agreement::disagrees) || self.gyro.is_silent || self.accelerometer.is_silent
+        disagrees.into_iter().any(Agreement::is_doubtful)
+            || self.gyro.is_told_of()
+            || self.accelerometer.is_told_of()
+            || self.lively.is_told_of()
     }
 
     /// The filter itself.
@@ -192,21 +204,20 @@ impl Inertial {
     /// A sample of the inertial unit, of some seconds.
     fn go_on(&mut self, gyro: Option<[f64; 3]>, accelerometer: Option<[f64; 3]>, time: f64) {
         self.time += time;
-        let gyro = self.gyro.believed(gyro, self.time, time, &mut self.notices);
-        let accelerometer = self.accelerometer.believed(accelerometer, self.time, time, &mut self.notices);
+        let gyro = self.gyro.believed(gyro, self.time, &mut self.notices);
+        let accelerometer = self.accelerometer.believed(accelerometer, self.time, &mut self.notices);
         if self.filter.predict(&Imu { gyro, accelerometer }, time).is_err() {
             // A state that runs away: without what was measured it stays where it is.
             let _ = self.filter.predict(&Imu::default(), time);
         }
         let bias = self.filter.state().gyro_bias;
-        if let Some(gyro) = gyro {
-            self.rates = std::array::from_fn(|i| gyro[i] - bias[i]);
-        }
+        self.rates = gyro.map(|gyro| std::array::from_fn(|i| gyro[i] - bias[i]));
     }
 
     /// What aids it at the moment to which it has gone on.
     fn aid(&mut self, aiding: &Aiding) {
-        let told = self.filter.aid(aiding);
+        let aiding = self.lively.believed(aiding, self.time, &mut self.notices);
+        let told = self.filter.aid(&aiding);
         self.nis = Nis {
             attitude: told.attitude.and_then(|told| self.judge(Source::Attitude, told)),
             pressure: told.pressure.and_then(|told| self.judge(Source::Pressure, told)),
@@ -234,32 +245,77 @@ impl Inertial {
     fn judge<const M: usize>(&mut self, source: Source, told: Result<Innovation<M>, UkfError>) -> Option<f64> {
         let (time, nis) = (self.time, told.ok().map(|innovation| innovation.nis));
         let held_back = told.is_ok_and(|innovation| innovation.gated) || told.is_err();
-        let is_placed = self.receivers.agrees_lately(time, LATELY_S) || self.fixes.agrees_lately(time, LATELY_S);
         let agreement = self.agreement(source);
         let turn = agreement.take(time, nis, held_back);
-        let is_lost = held_back && agreement.has_persisted();
+        let gives_way = held_back && agreement.has_persisted();
         match turn {
             Turn::Same => {}
             Turn::Disagrees => self.tell(true, source.name(), "disagrees"),
-            Turn::Agrees => self.tell(false, source.name(), "disagrees"),
+            Turn::Agrees => self.notices.push(format!(
+                "navigation: {} agrees again; which was wrong is not known, and the position is doubtful until fixes confirm it",
+                source.name()
+            )),
         }
-        if is_lost {
-            let doubt = match source {
-                Source::Attitude => ATTITUDE_DOUBT,
-                Source::Pressure => DEPTH_DOUBT,
-                // A log that disagrees while positions agree is the one that is wrong.
-                Source::Velocity | Source::Model if is_placed => NO_DOUBT,
-                Source::Velocity | Source::Model => VELOCITY_DOUBT,
-                Source::Receivers => LOST_DOUBT,
-                Source::Fixes => PLACE_DOUBT,
-            };
-            let _ = self.filter.doubt(&doubt);
+        if gives_way {
+            let [_, _, down] = DOUBT.position;
+            let lost = InsState { position: [LOST, LOST, down], ..DOUBT };
+            let _ = self.filter.doubt(if source == Source::Receivers { &lost } else { &DOUBT });
         }
         nis.map(|nis| nis / M as f64)
     }
 
+    /// Fixes, which come from elsewhere, agree with all: what was doubtful is not any more.
+    fn confirm(&mut self) {
+        for source in Source::ALL {
+            if self.agreement(source).confirm() {
+                self.tell(false, source.name(), "disagrees");
+            }
+        }
+    }
+
     fn tell(&mut self, begins: bool, what: &str, how: &str) {
         self.notices.push(notice(begins, what, how));
+    }
+}
+
+/// The instruments that aid, as far as they live.
+#[derive(Clone, Debug)]
+struct Lively {
+    attitude: Liveliness<3>,
+    pressure: Liveliness<1>,
+    velocity: Liveliness<3>,
+    receivers: Liveliness<5>,
+}
+
+impl Lively {
+    fn new(departure: &Departure) -> Self {
+        Lively {
+            attitude: Liveliness::of(Source::Attitude.name(), false, None),
+            pressure: Liveliness::of(Source::Pressure.name(), departure.exact_pressure, None),
+            velocity: Liveliness::of(Source::Velocity.name(), departure.exact_velocity, Some(LOG_SILENT_S)),
+            receivers: Liveliness::of(Source::Receivers.name(), false, None),
+        }
+    }
+
+    /// Whether one is stuck.
+    fn is_told_of(&self) -> bool {
+        self.attitude.is_told_of()
+            || self.pressure.is_told_of()
+            || self.velocity.is_told_of()
+            || self.receivers.is_told_of()
+    }
+
+    /// What of it can be believed.
+    fn believed(&mut self, aiding: &Aiding, now: f64, notices: &mut Vec<String>) -> Aiding {
+        let Aiding { attitude, pressure, velocity, arrival, .. } = *aiding;
+        let value = self.velocity.believed(velocity.map(|told| told.value), now, notices);
+        Aiding {
+            attitude: self.attitude.believed(attitude, now, notices),
+            pressure: self.pressure.believed(pressure.map(|told| [told]), now, notices).map(|[told]| told),
+            velocity: velocity.filter(|_| value.is_some()),
+            arrival: self.receivers.believed(arrival, now, notices),
+            ..*aiding
+        }
     }
 }
 
@@ -276,7 +332,12 @@ impl Navigator for Inertial {
         let told =
             self.filter.take_fix([fix.position.north, fix.position.east], fix.sigma.max(FIX_SIGMA_MIN), Some(GATE_2));
         self.judge(Source::Fixes, told);
-        told.is_ok_and(|innovation| !innovation.gated)
+        let is_believed = told.is_ok_and(|innovation| !innovation.gated);
+        self.confirmed = if is_believed { self.confirmed + 1 } else { 0 };
+        if self.confirmed >= CONFIRMED_FIXES {
+            self.confirm();
+        }
+        is_believed
     }
 
     fn sense(&mut self, raw: &Raw) {
@@ -306,53 +367,5 @@ impl Navigator for Inertial {
 
     fn boxed(&self) -> Box<dyn Navigator> {
         Box::new(self.clone())
-    }
-}
-
-/// Three gyroscopes or three accelerometers.
-#[derive(Clone, Debug)]
-struct Unit {
-    name: &'static str,
-    last: [f64; 3],
-    /// How often the last sample has come again.
-    same: u32,
-    /// When something came last that can be believed, s.
-    heard: f64,
-    is_silent: bool,
-}
-
-impl Unit {
-    fn new(name: &'static str) -> Self {
-        Unit { name, last: [f64::NAN; 3], same: 0, heard: 0.0, is_silent: false }
-    }
-
-    /// A sample that can be believed, at a time, s.
-    fn believed(
-        &mut self,
-        sample: Option<[f64; 3]>,
-        now: f64,
-        step: f64,
-        notices: &mut Vec<String>,
-    ) -> Option<[f64; 3]> {
-        let sample = sample.filter(|sample| sample.iter().all(|x| x.is_finite()));
-        if let Some(sample) = sample {
-            self.same = if sample == self.last { self.same.saturating_add(1) } else { 0 };
-            self.last = sample;
-        }
-        let believed = sample.filter(|_| self.same < STUCK_SAMPLES);
-        if believed.is_some() {
-            // What comes now and then is silent between.
-            let was_away = now - self.heard > 2.0 * step + SILENT_S;
-            self.heard = now;
-            if self.is_silent && !was_away {
-                self.is_silent = false;
-                notices.push(notice(false, self.name, "silent"));
-            }
-        } else if !self.is_silent && now - self.heard > SILENT_S {
-            self.is_silent = true;
-            let how = if self.same >= STUCK_SAMPLES { "stuck" } else { "silent" };
-            notices.push(notice(true, self.name, how));
-        }
-        believed
     }
 }

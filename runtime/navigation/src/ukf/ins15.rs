@@ -85,8 +85,8 @@ pub struct Aided {
     pub arrival: Option<Result<Innovation<5>, UkfError>>,
 }
 
-/// For how long errors of roll and pitch stay alike, s: some 30 s by Table 1, whose attitude sensor forgets what gyroscopes miss in that time.
-const TILT_S: f64 = 30.0;
+/// For how long errors of attitude stay alike, s: some 30 s by Table 1, whose attitude sensor forgets what gyroscopes miss in that time.
+const ALIKE_S: f64 = 30.0;
 /// The place is not known where its standard deviation is more than this share of the range to the transponder.
 const LOST: f64 = 0.1;
 
@@ -135,13 +135,20 @@ impl Ins15 {
         let (gyro, force) = (imu.gyro.map(Vector3::from), imu.accelerometer.map(Vector3::from));
         let setup = &self.setup;
         let mut angles = Trigonometry::default();
-        let turn_sigma = if gyro.is_some() { setup.gyro_sigma } else { setup.unmeasured_turn };
+        let turn_sigma = if gyro.is_some() { [setup.gyro_sigma; 3] } else { setup.unmeasured_turn };
         let force_sigma = if force.is_some() { setup.accelerometer_sigma } else { setup.unmeasured_acceleration };
         let sigmas = StepSigmas { turn: turn_sigma, velocity: setup.velocity_sigma, acceleration: force_sigma };
         let mut noise = process_noise(angles.of(self.filter.state()), &sigmas, time);
         if setup.complete_noise {
-            add_turned(&mut noise, angles.of(self.filter.state()), &part(self.filter.state(), VELOCITY), turn_sigma * time);
-            noise[(POSITION + 2, POSITION + 2)] += 2.0 * TILT_S * time * self.sinking_variance();
+            add_turned(
+                &mut noise,
+                angles.of(self.filter.state()),
+                &part(self.filter.state(), VELOCITY),
+                turn_sigma,
+                time,
+            );
+            let unseen = self.unseen_way();
+            (0..3).for_each(|axis| noise[(POSITION + axis, POSITION + axis)] += 2.0 * ALIKE_S * time * unseen[axis]);
         }
         let at_rest = at_rest(setup.gravity).into();
         let process = |state: &SVector<f64, 15>| {
@@ -152,11 +159,14 @@ impl Ins15 {
         self.filter.predict(process, &noise)
     }
 
-    /// The variance of what tilt and velocity make of each other in the rate of depth, m2/s2: their product, which sigma points that lie on
-    /// the axes of both do not see. It matters where the velocity is not known, and a pressure sensor tells the depth to a centimetre.
-    fn sinking_variance(&self) -> f64 {
+    /// The variances of what errors of attitude and velocity make of each other in the velocity north, east and down, m2/s2: their products,
+    /// which sigma points that lie on the axes of both do not see. They matter where the velocity is not known well, and the depth is told to a
+    /// centimetre or a range to a millimetre.
+    fn unseen_way(&self) -> [f64; 3] {
         let variance = |state: usize| self.filter.variance(state);
-        variance(ATTITUDE + 1) * variance(VELOCITY) + variance(ATTITUDE) * variance(VELOCITY + 1)
+        let [ahead, aside] = [0, 1].map(|axis| variance(VELOCITY + axis));
+        let level = variance(ATTITUDE + 2) * (ahead + aside);
+        [level, level, variance(ATTITUDE + 1) * ahead + variance(ATTITUDE) * aside]
     }
 
     /// Becomes less sure of each state by a standard deviation: of one that measurements have contradicted.

@@ -10,7 +10,7 @@ const DECIMALS: u8 = 4;
 type Column = (&'static str, fn(&NavigationSummary) -> Option<f64>);
 
 /// All of them. Errors are of once a second, from 30 s on but for the place; `nees` and `nis` are of each number, 1 where the filter is right.
-const COLUMNS: [Column; 19] = [
+const COLUMNS: [Column; 20] = [
     ("position_error_mean_m", |n| Some(n.position_error_mean_m)),
     ("position_error_max_m", |n| Some(n.position_error_max_m)),
     ("depth_error_rms_m", |n| Some(n.depth_error_rms_m)),
@@ -29,6 +29,7 @@ const COLUMNS: [Column; 19] = [
     ("nis_pressure", |n| n.nis[1]),
     ("nis_velocity", |n| n.nis[2]),
     ("nis_arrival", |n| n.nis[3]),
+    ("beyond_s", |n| Some(n.beyond_s)),
     ("unnoticed_s", |n| Some(n.unnoticed_s)),
 ];
 

@@ -35,6 +35,8 @@ pub(crate) struct NavigationAccount {
     within: [u32; NAVIGATION_STATES / 3],
     /// Looks at which the place was beyond what is expected, and nothing was told of it.
     unnoticed: u32,
+    /// All at which it was.
+    beyond: u32,
 }
 
 impl NavigationAccount {
@@ -51,6 +53,7 @@ impl NavigationAccount {
         for (i, (error, sigma)) in errors.error.iter().zip(errors.sigma).enumerate() {
             self.within[i / 3] += u32::from(error.abs() <= DEVIATIONS * sigma);
         }
+        self.beyond += u32::from(beyond(errors));
         self.unnoticed += u32::from(!errors.doubted && beyond(errors));
         if t_s < SETTLED_S {
             return;
@@ -88,6 +91,7 @@ impl NavigationAccount {
             within_3_sigma: [attitude, gyro_bias, position, velocity, accelerometer_bias],
             nees: self.nees / looks,
             nis,
+            beyond_s: f64::from(self.beyond),
             unnoticed_s: f64::from(self.unnoticed),
         })
     }
@@ -135,7 +139,7 @@ mod tests {
             .zip(40..)
             .for_each(|((north, doubted), t)| account.take(f64::from(t), &errors(north, 1.0, doubted)));
         let summary = account.summary().unwrap();
-        assert_eq!((summary.unnoticed_s, summary.position_error_mean_m), (1.0, 3.25));
+        assert_eq!((summary.beyond_s, summary.unnoticed_s, summary.position_error_mean_m), (2.0, 1.0, 3.25));
         assert_eq!(summary.nis, [Some(2.0), None, None, None]);
         // Two of twelve numbers of places.
         assert!((summary.within_3_sigma[2] - 10.0 / 12.0).abs() < 1e-12);

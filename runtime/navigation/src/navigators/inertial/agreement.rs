@@ -3,29 +3,39 @@
 /// Disagreement of so long, s, is told. A sample that the gate lets through takes a tenth of its time off again.
 const DISAGREES_S: f64 = 5.0;
 const FORGIVES: f64 = 0.1;
+/// An instrument that has disagreed agrees again when nothing spoke against it for so long, s.
+const CALM_S: f64 = 60.0;
 /// A sample stands for the time since the one before, but for no longer than this, s.
 const SAMPLE_S_MAX: f64 = 2.0;
-/// Over so long, s, normalised innovations are averaged ...
+/// Over so long, s, normalised innovations are averaged, and for so long before anything is said of their mean ...
 const AVERAGED_S: f64 = 60.0;
-/// ... and so many of its own standard deviations above 1 their mean may be.
+const FIRST_S: f64 = 20.0;
+/// ... which may be so many of its own standard deviations above 1.
 const MEAN_DEVIATIONS: f64 = 6.0;
+/// No sample counts for more in that mean than this: what is farther off is held back, and counts there.
+const TOLD_MAX: f64 = 10.0;
 
 /// The agreement of one instrument with the filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
     /// Numbers of a sample.
     freedoms: f64,
-    /// When the last sample came, s.
-    last: Option<f64>,
+    /// When the first and the last sample came, s.
+    first: Option<f64>,
+    last: f64,
     /// For how long samples have been held back, s, less what was forgiven since.
     disagreed: f64,
+    /// The same since the filter last became unsure of itself.
+    persists: f64,
+    /// For how long nothing has spoken against it, s.
+    calm: f64,
     /// The mean of the normalised innovation squared of each number, 1 where the filter is right, and the sum of the squares of the
     /// weights that it is made with.
     mean: f64,
     weights: f64,
     disagrees: bool,
-    /// Whether it has disagreed for long enough, since this was last told.
-    persists: f64,
+    /// Whether it has disagreed: that it agrees since proves nothing, for the filter may have followed it.
+    has_disagreed: bool,
 }
 
 /// What a sample did to the agreement.
@@ -35,7 +45,7 @@ pub enum Turn {
     Same,
     /// It has begun to disagree.
     Disagrees,
-    /// It agrees again.
+    /// It agrees again: which of both was wrong is not known.
     Agrees,
 }
 
@@ -44,41 +54,37 @@ impl Agreement {
     pub fn of(freedoms: u8) -> Self {
         Agreement {
             freedoms: f64::from(freedoms),
-            last: None,
+            first: None,
+            last: 0.0,
             disagreed: 0.0,
+            persists: 0.0,
+            calm: 0.0,
             mean: 1.0,
             weights: 0.0,
             disagrees: false,
-            persists: 0.0,
+            has_disagreed: false,
         }
     }
 
     /// A sample of a time, s, with its normalised innovation squared, and whether it was held back. One that is no number at all has
     /// none.
     pub fn take(&mut self, time: f64, nis: Option<f64>, held_back: bool) -> Turn {
-        let since = self.last.map_or(SAMPLE_S_MAX, |last| (time - last).clamp(0.0, SAMPLE_S_MAX));
-        self.last = Some(time);
-        if held_back {
-            self.disagreed = (self.disagreed + since).min(2.0 * DISAGREES_S);
-            self.persists += since;
-        } else {
-            self.disagreed = (self.disagreed - FORGIVES * since).max(0.0);
-            self.persists = (self.persists - FORGIVES * since).max(0.0);
+        let since = self.first.map_or(0.0, |_| (time - self.last).clamp(0.0, SAMPLE_S_MAX));
+        let lasting = time - *self.first.get_or_insert(time);
+        self.last = time;
+        for score in [&mut self.disagreed, &mut self.persists] {
+            *score = if held_back { *score + since } else { (*score - FORGIVES * since).max(0.0) };
         }
-        if let Some(nis) = nis {
-            let share = (since / AVERAGED_S).min(1.0);
-            // One sample in a thousand is beyond the gate where all is well: it counts, but not for more than ten.
-            let told = (nis / self.freedoms).min(10.0);
-            self.mean += share * (told - self.mean);
-            self.weights = (1.0 - share) * (1.0 - share) * self.weights + share * share;
-        }
+        self.disagreed = self.disagreed.min(DISAGREES_S);
+        self.average(nis, since);
         // The variance of chi-square over its degrees of freedom is 2 / freedoms.
         let deviation = (2.0 / self.freedoms * self.weights).sqrt();
-        let scatters = self.mean > 1.0 + MEAN_DEVIATIONS * deviation;
+        let scatters = lasting > FIRST_S && self.mean > 1.0 + MEAN_DEVIATIONS * deviation;
+        self.calm = if self.disagreed > 0.5 * DISAGREES_S || scatters { 0.0 } else { self.calm + since };
         if !self.disagrees && (self.disagreed >= DISAGREES_S || scatters) {
-            self.disagrees = true;
+            (self.disagrees, self.has_disagreed) = (true, true);
             Turn::Disagrees
-        } else if self.disagrees && self.disagreed == 0.0 && !scatters {
+        } else if self.disagrees && self.calm > CALM_S {
             self.disagrees = false;
             Turn::Agrees
         } else {
@@ -86,7 +92,14 @@ impl Agreement {
         }
     }
 
-    /// Whether samples have been held back for so long that the filter may be the one that is wrong; then it begins to count anew.
+    fn average(&mut self, nis: Option<f64>, since: f64) {
+        let share = since / AVERAGED_S;
+        let told = nis.map_or(TOLD_MAX, |nis| (nis / self.freedoms).min(TOLD_MAX));
+        self.mean += share * (told - self.mean);
+        self.weights = (1.0 - share) * (1.0 - share) * self.weights + share * share;
+    }
+
+    /// Whether samples have been held back for so long that the filter may be the one that is wrong, and gives way; then it begins to count anew.
     pub fn has_persisted(&mut self) -> bool {
         let persists = self.persists >= DISAGREES_S;
         if persists {
@@ -95,14 +108,14 @@ impl Agreement {
         persists
     }
 
-    /// Whether it disagrees now.
-    pub fn disagrees(&self) -> bool {
-        self.disagrees
+    /// Whether it disagrees, or has since the position was last confirmed.
+    pub fn is_doubtful(&self) -> bool {
+        self.has_disagreed
     }
 
-    /// Whether its last sample is no older than this at a time, s, and it agrees.
-    pub fn agrees_lately(&self, time: f64, age: f64) -> bool {
-        !self.disagrees && self.disagreed == 0.0 && self.last.is_some_and(|last| time - last <= age)
+    /// The position is confirmed by others. Whether it was doubtful, and is not any more.
+    pub fn confirm(&mut self) -> bool {
+        !self.disagrees && std::mem::take(&mut self.has_disagreed)
     }
 }
 
@@ -118,14 +131,15 @@ mod tests {
     }
 
     #[test]
-    fn it_is_told_after_five_seconds_and_over_when_as_much_has_agreed() {
+    fn it_is_told_after_five_seconds_and_over_after_a_minute_of_calm() {
         let mut dvl = Agreement::of(3);
         assert_eq!(turns(&mut dvl, 0.0, 600.0, |_| 3.0), []);
         let told = turns(&mut dvl, 600.0, 20.0, |_| 100.0);
-        assert!(matches!(told[..], [(time, Turn::Disagrees)] if (time - 604.8).abs() < 0.3), "{told:?}");
+        assert!(matches!(told[..], [(time, Turn::Disagrees)] if time <= 605.1), "{told:?}");
         assert!(dvl.has_persisted() && !dvl.has_persisted());
-        let told = turns(&mut dvl, 620.0, 400.0, |_| 3.0);
-        assert!(matches!(told[..], [(time, Turn::Agrees)] if time > 660.0), "{told:?}");
+        let told = turns(&mut dvl, 620.0, 800.0, |_| 3.0);
+        assert!(matches!(told[..], [(time, Turn::Agrees)] if time > 680.0), "{told:?}");
+        assert!(dvl.is_doubtful() && dvl.confirm() && !dvl.is_doubtful());
     }
 
     #[test]
@@ -136,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn one_sample_in_ten_that_is_held_back_is_forgiven() {
+    fn one_sample_in_a_thousand_that_is_held_back_is_forgiven() {
         let mut dvl = Agreement::of(3);
         assert_eq!(turns(&mut dvl, 0.0, 3600.0, |i| if i % 1000 == 0 { 20.0 } else { 3.0 }), []);
     }

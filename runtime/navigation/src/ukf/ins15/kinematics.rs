@@ -2,7 +2,7 @@
 
 use super::attitude::rates;
 use albacore_geometry::Attitude;
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 /// Where roll, pitch and yaw stand among the states.
 pub const ATTITUDE: usize = 0;
@@ -46,8 +46,8 @@ pub fn derivative(
 /// Standard deviations of what a step goes on with.
 #[derive(Clone, Copy, Debug)]
 pub struct StepSigmas {
-    /// Rates of turn, rad/s.
-    pub turn: f64,
+    /// Rates of turn, rad/s, body.
+    pub turn: [f64; 3],
     /// Velocity, m/s.
     pub velocity: f64,
     /// Acceleration, m/s2.
@@ -59,7 +59,7 @@ pub struct StepSigmas {
 pub fn process_noise(attitude: Attitude, sigmas: &StepSigmas, time: f64) -> SMatrix<f64, 15, 15> {
     let square = |x: f64| x * x;
     let mut noise = SMatrix::<f64, 15, 15>::zeros();
-    let rates = rates(attitude) * (sigmas.turn * time);
+    let rates = rates(attitude) * turned_by(sigmas.turn, time);
     noise.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&(rates * rates.transpose()));
     for axis in 0..3 {
         noise[(POSITION + axis, POSITION + axis)] = square(sigmas.velocity * time);
@@ -68,12 +68,24 @@ pub fn process_noise(attitude: Attitude, sigmas: &StepSigmas, time: f64) -> SMat
     noise
 }
 
-/// Adds what (16) leaves out: the noise of the gyroscopes, an angle of this standard deviation (rad) in a step, turns the velocity in the body's
+/// The standard deviations of the angles by which rates with some noise turn in a step, rad.
+fn turned_by(turn: [f64; 3], time: f64) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&(Vector3::from(turn) * time))
+}
+
+/// Adds what (16) leaves out: the noise of the gyroscopes turns the velocity in the body's
 /// frame as it turns the body. At 1.5 m/s that is nothing; a velocity that is lost may be believed to be 40 m/s.
 #[inline]
-pub fn add_turned(noise: &mut SMatrix<f64, 15, 15>, attitude: Attitude, velocity: &Vector3<f64>, sigma: f64) {
-    let turned = velocity.cross_matrix() * sigma;
-    let with_attitude = turned * (rates(attitude) * sigma).transpose();
+pub fn add_turned(
+    noise: &mut SMatrix<f64, 15, 15>,
+    attitude: Attitude,
+    velocity: &Vector3<f64>,
+    turn: [f64; 3],
+    time: f64,
+) {
+    let turn = turned_by(turn, time);
+    let turned = velocity.cross_matrix() * turn;
+    let with_attitude = turned * (rates(attitude) * turn).transpose();
     let mut block = noise.fixed_view_mut::<3, 3>(VELOCITY, VELOCITY);
     block += turned * turned.transpose();
     noise.fixed_view_mut::<3, 3>(VELOCITY, ATTITUDE).copy_from(&with_attitude);

@@ -14,9 +14,9 @@ pub struct Ins15Setup {
     pub gyro_sigma: f64,
     /// Of a sample of the accelerometers, m/s2.
     pub accelerometer_sigma: f64,
-    /// Of a rate of turn that was not measured, as white noise of each step, rad/s. A turn of 0.2 rad/s for some 5 s has the power of
-    /// 6 rad/s at 100 Hz.
-    pub unmeasured_turn: f64,
+    /// Of rates of turn that were not measured, as white noise of each step, rad/s: of roll, pitch and yaw. A turn of 0.1 rad/s for 2 s
+    /// has the power of 2 rad/s at 100 Hz; roll and pitch come and go faster, and are smaller.
+    pub unmeasured_turn: [f64; 3],
     /// Of an acceleration that was not measured, likewise, m/s2: 0.2 m/s2 for some 5 s.
     pub unmeasured_acceleration: f64,
     /// Of the velocity with which a step goes on, m/s: the paper's `sigma_u` of Eq. (16), of which it has no number.
@@ -29,8 +29,8 @@ pub struct Ins15Setup {
     /// straight function of a state that is known to 100 m, after a silence: believed as they are they make the filter too sure of
     /// yaw and place (5 % of errors beyond three deviations, 0.5 % with eleven times the deviation; `tests/ukf/long_run.rs`).
     pub arrival_sigma: f64,
-    /// Whether the noise of a step has what Eq. (16) leaves out: what the gyroscopes' does to the velocity, and what errors of tilt and
-    /// velocity make of each other in the depth. Both matter where the velocity is lost.
+    /// Whether the noise of a step has what Eq. (16) leaves out: what the gyroscopes' does to the velocity, and what errors of attitude
+    /// and velocity make of each other in the position. Both matter where the velocity is lost.
     pub complete_noise: bool,
     /// Whether a place that is hardly known is found anew by times of arrival, instead of corrected by them.
     pub finds: bool,
@@ -74,7 +74,7 @@ impl Default for Ins15Setup {
             yaw: Component::Circle,
             gyro_sigma: 0.005,
             accelerometer_sigma: 0.1,
-            unmeasured_turn: 6.0,
+            unmeasured_turn: [0.3, 0.3, 2.0],
             unmeasured_acceleration: 6.0,
             velocity_sigma: 0.05,
             attitude_sigma: [0.05, 0.05, 0.2],

@@ -105,7 +105,14 @@ pub fn departure(
         position: off([north, east, start.depth], sigma.position, 3),
         ..InsState::default()
     };
-    Departure { position: start.position, state, sigma, setup: filter_setup(setup, transponder) }
+    Departure {
+        position: start.position,
+        state,
+        sigma,
+        setup: filter_setup(setup, transponder),
+        exact_pressure: setup.pressure.noise == 0.0,
+        exact_velocity: setup.dvl.noise == 0.0,
+    }
 }
 
 impl InertialSuite {

@@ -85,12 +85,14 @@ impl OnboardNavigation {
     pub fn misjudged(&self, state: &State) -> Option<Misjudged> {
         let inertial = self.inertial()?;
         let believed = inertial.state();
-        let [_, pitch_rate, yaw_rate] = inertial.rates();
+        // Without gyroscopes to navigate by an autopilot has its own.
+        let rates = inertial.rates();
+        let off = |axis: usize| rates.map_or(0.0, |rates| rates[axis] - state.velocity[3 + axis]);
         Some(Misjudged {
             heading: wrap_angle(believed.attitude[2] - state.pose[5]),
             pitch: believed.attitude[1] - state.pose[4],
-            pitch_rate: pitch_rate - state.velocity[4],
-            yaw_rate: yaw_rate - state.velocity[5],
+            pitch_rate: off(1),
+            yaw_rate: off(2),
             depth: believed.position[2] - state.pose[2],
         })
     }

@@ -64,7 +64,7 @@ impl VelocityModel {
         let state = navigator.state();
         let [roll, pitch, yaw] = state.attitude;
         let attitude = Attitude::of(roll, pitch, yaw);
-        let rates = navigator.rates();
+        let rates = navigator.rates().unwrap_or_default();
         for controls in &track.controls {
             self.velocity += self.acceleration(&attitude, self.velocity, rates, controls) * track.step_s();
         }
