@@ -21,6 +21,9 @@ const CONFIRMED_FIXES: u32 = 5;
 /// Silence is told of after so long, s: of the inertial unit, and of the Doppler log.
 const UNIT_SILENT_S: f64 = 1.0;
 const LOG_SILENT_S: f64 = 10.0;
+/// When no velocity was told for so long, s, ranges are believed to this at best, m.
+const UNTOLD_S: f64 = 2.0;
+const UNTOLD_RANGE_SIGMA: f64 = 0.003;
 /// A fix is never believed to less than this, m.
 const FIX_SIGMA_MIN: f64 = 0.01;
 
@@ -112,6 +115,10 @@ pub struct Inertial {
     model: Agreement,
     receivers: Agreement,
     fixes: Agreement,
+    /// When a velocity was told last, s.
+    moved: f64,
+    /// Of a time of arrival, while a velocity is told, s.
+    arrival_sigma: f64,
     /// So many fixes in a row were believed.
     confirmed: u32,
     nis: Nis,
@@ -151,6 +158,8 @@ impl Inertial {
             model: Agreement::of(3),
             receivers: Agreement::of(5),
             fixes: Agreement::of(2),
+            moved: 0.0,
+            arrival_sigma,
             confirmed: 0,
             nis: Nis::default(),
             notices: Vec::new(),
@@ -217,6 +226,7 @@ impl Inertial {
     /// What aids it at the moment to which it has gone on.
     fn aid(&mut self, aiding: &Aiding) {
         let aiding = self.lively.believed(aiding, self.time, &mut self.notices);
+        self.weigh_ranges(&aiding);
         let told = self.filter.aid(&aiding);
         self.nis = Nis {
             attitude: told.attitude.and_then(|told| self.judge(Source::Attitude, told)),
@@ -228,6 +238,17 @@ impl Inertial {
             // Its noise is no white one, and its innovations tell nothing of the filter.
             self.judge(Source::Model, told);
         }
+    }
+
+    /// Without a velocity, ranges are believed less: taken for what they are, to a millimetre, they turn the estimate about the transponder, which
+    /// nothing in them can tell.
+    fn weigh_ranges(&mut self, aiding: &Aiding) {
+        if aiding.velocity.or(aiding.modelled).is_some() {
+            self.moved = self.time;
+        }
+        let is_told = self.time - self.moved <= UNTOLD_S;
+        let doubt = if is_told { 0.0 } else { UNTOLD_RANGE_SIGMA / self.filter.setup_mut().sound_speed };
+        self.filter.setup_mut().arrival_sigma = self.arrival_sigma.hypot(doubt);
     }
 
     fn agreement(&mut self, source: Source) -> &mut Agreement {
