@@ -71,10 +71,10 @@ pub struct NavigationSummary {
     pub accelerometer_bias_error_max_m_s2: f64,
     /// Shares of errors within three of the expected standard deviations: attitude, gyro biases, position, velocity, accelerometer biases.
     pub within_3_sigma: [f64; 5],
-    /// The error's square by its covariance, of each state: 1 where the filter is right.
-    pub nees: f64,
-    /// The innovations' squares by theirs, of each number: attitude, pressure, velocity, times of arrival.
-    pub nis: [Option<f64>; 4],
+    /// The error's square by its covariance, of each state: the mean, 1 where the filter is right, and the share between the bounds of 95 %.
+    pub nees: [f64; 2],
+    /// The innovations' squares by theirs, of each number, likewise: attitude, pressure, velocity, times of arrival.
+    pub nis: [Option<[f64; 2]>; 4],
     /// For so long the place was farther off than expected: by more than four standard deviations.
     pub beyond_s: f64,
     /// For so long of that the navigator told of nothing.

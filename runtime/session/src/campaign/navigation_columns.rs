@@ -10,7 +10,7 @@ const DECIMALS: u8 = 4;
 type Column = (&'static str, fn(&NavigationSummary) -> Option<f64>);
 
 /// All of them. Errors are of once a second, from 30 s on but for the place; `nees` and `nis` are of each number, 1 where the filter is right.
-const COLUMNS: [Column; 20] = [
+const COLUMNS: [Column; 25] = [
     ("position_error_mean_m", |n| Some(n.position_error_mean_m)),
     ("position_error_max_m", |n| Some(n.position_error_max_m)),
     ("depth_error_rms_m", |n| Some(n.depth_error_rms_m)),
@@ -24,11 +24,16 @@ const COLUMNS: [Column; 20] = [
     ("gyro_bias_within_3_sigma", |n| Some(n.within_3_sigma[1])),
     ("position_within_3_sigma", |n| Some(n.within_3_sigma[2])),
     ("velocity_within_3_sigma", |n| Some(n.within_3_sigma[3])),
-    ("nees", |n| Some(n.nees)),
-    ("nis_attitude", |n| n.nis[0]),
-    ("nis_pressure", |n| n.nis[1]),
-    ("nis_velocity", |n| n.nis[2]),
-    ("nis_arrival", |n| n.nis[3]),
+    ("nees", |n| Some(n.nees[0])),
+    ("nees_within_95", |n| Some(n.nees[1])),
+    ("nis_attitude", |n| n.nis[0].map(|nis| nis[0])),
+    ("nis_attitude_within_95", |n| n.nis[0].map(|nis| nis[1])),
+    ("nis_pressure", |n| n.nis[1].map(|nis| nis[0])),
+    ("nis_pressure_within_95", |n| n.nis[1].map(|nis| nis[1])),
+    ("nis_velocity", |n| n.nis[2].map(|nis| nis[0])),
+    ("nis_velocity_within_95", |n| n.nis[2].map(|nis| nis[1])),
+    ("nis_arrival", |n| n.nis[3].map(|nis| nis[0])),
+    ("nis_arrival_within_95", |n| n.nis[3].map(|nis| nis[1])),
     ("beyond_s", |n| Some(n.beyond_s)),
     ("unnoticed_s", |n| Some(n.unnoticed_s)),
 ];

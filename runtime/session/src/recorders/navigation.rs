@@ -3,6 +3,7 @@
 use crate::summary::NavigationSummary;
 use albacore_geometry::math::degrees;
 use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors};
+use std::ops::RangeInclusive;
 
 /// Errors count from here on, s: until then biases are being found.
 const SETTLED_S: f64 = 30.0;
@@ -11,17 +12,42 @@ const SHARE: f64 = 0.99;
 /// A horizontal error whose square by its covariance is more than this is beyond what is expected: one in 3000 is where the filter is
 /// right.
 const BEYOND: f64 = 16.0;
+/// Between these lie 95 % of a chi-square distribution over its degrees of freedom: 15 of the states, 3, 1, 3 and 5 of the innovations.
+const NEES_95: RangeInclusive<f64> = 0.417_5..=1.832_6;
+const NIS_95: [RangeInclusive<f64>; 4] = [0.071_9..=3.116_1, 0.000_982..=5.023_9, 0.071_9..=3.116_1, 0.166_2..=2.566_5];
 /// What is expected holds errors of so many standard deviations.
 const DEVIATIONS: f64 = 3.0;
+
+/// Squares by their covariance.
+#[derive(Clone, Copy, Debug, Default)]
+struct Normalised {
+    sum: f64,
+    count: u32,
+    /// So many between the bounds.
+    within: u32,
+}
+
+impl Normalised {
+    fn take(&mut self, value: f64, bounds: &RangeInclusive<f64>) {
+        self.sum += value;
+        self.count += 1;
+        self.within += u32::from(bounds.contains(&value));
+    }
+
+    /// The mean, and the share between the bounds; none of none.
+    fn summary(&self) -> Option<[f64; 2]> {
+        let count = f64::from(self.count);
+        (self.count > 0).then(|| [self.sum / count, f64::from(self.within) / count])
+    }
+}
 
 /// What is gathered of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NavigationAccount {
     looks: u32,
     settled: u32,
-    nees: f64,
-    /// Sums of normalised innovations squared, and how many.
-    nis: [(f64, u32); 4],
+    nees: Normalised,
+    nis: [Normalised; 4],
     /// Horizontal errors: their sum, and the greatest, m.
     horizontal: (f64, f64),
     /// The sum of the squares of errors of depth, m2, and the greatest, m.
@@ -42,13 +68,12 @@ pub(crate) struct NavigationAccount {
 impl NavigationAccount {
     /// A look at a time, s.
     pub fn take(&mut self, t_s: f64, errors: &NavigationErrors) {
-        for ((sum, count), nis) in self.nis.iter_mut().zip(errors.nis) {
-            *sum += nis.unwrap_or(0.0);
-            *count += u32::from(nis.is_some());
+        for ((gathered, bounds), nis) in self.nis.iter_mut().zip(&NIS_95).zip(errors.nis) {
+            nis.into_iter().for_each(|nis| gathered.take(nis, bounds));
         }
         let horizontal = errors.error[6].hypot(errors.error[7]);
         self.looks += 1;
-        self.nees += errors.nees;
+        self.nees.take(errors.nees, &NEES_95);
         self.horizontal = (self.horizontal.0 + horizontal, self.horizontal.1.max(horizontal));
         for (i, (error, sigma)) in errors.error.iter().zip(errors.sigma).enumerate() {
             self.within[i / 3] += u32::from(error.abs() <= DEVIATIONS * sigma);
@@ -77,7 +102,6 @@ impl NavigationAccount {
         let [roll, pitch, yaw] = [0, 1, 2].map(|axis| degrees(percentile(&self.attitude[axis])));
         let [attitude, gyro_bias, position, velocity, accelerometer_bias] =
             self.within.map(|within| f64::from(within) / (3.0 * looks));
-        let nis = self.nis.map(|(sum, count)| (count > 0).then(|| sum / f64::from(count)));
         Some(NavigationSummary {
             position_error_mean_m: self.horizontal.0 / looks,
             position_error_max_m: self.horizontal.1,
@@ -89,8 +113,8 @@ impl NavigationAccount {
             gyro_bias_error_max_deg_s: degrees(self.gyro_bias),
             accelerometer_bias_error_max_m_s2: self.accelerometer_bias,
             within_3_sigma: [attitude, gyro_bias, position, velocity, accelerometer_bias],
-            nees: self.nees / looks,
-            nis,
+            nees: self.nees.summary()?,
+            nis: self.nis.map(|nis| nis.summary()),
             beyond_s: f64::from(self.beyond),
             unnoticed_s: f64::from(self.unnoticed),
         })
@@ -140,7 +164,7 @@ mod tests {
             .for_each(|((north, doubted), t)| account.take(f64::from(t), &errors(north, 1.0, doubted)));
         let summary = account.summary().unwrap();
         assert_eq!((summary.beyond_s, summary.unnoticed_s, summary.position_error_mean_m), (2.0, 1.0, 3.25));
-        assert_eq!(summary.nis, [Some(2.0), None, None, None]);
+        assert_eq!(summary.nis, [Some([2.0, 1.0]), None, None, None]);
         // Two of twelve numbers of places.
         assert!((summary.within_3_sigma[2] - 10.0 / 12.0).abs() < 1e-12);
     }
