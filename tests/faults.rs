@@ -8,6 +8,7 @@
 #![expect(clippy::unwrap_used, reason = "a test whose scripts cannot be read has failed")]
 
 mod guard;
+mod inertial;
 mod page;
 
 use albacore_session::{Diagnostic, Faults, Outcome, Plan, PlanError, Run, Running, load, load_faults};
@@ -34,9 +35,9 @@ const OTHERS: [&str; 9] = [
     "strong_current(4 m/s toward 30 deg)",
 ];
 
-/// Those that can fail.
+/// Those that can fail, of what a mission is told.
 fn sensors() -> impl Iterator<Item = &'static str> {
-    Sensor::all().map(Sensor::name)
+    Sensor::all().filter(|sensor| sensor.is_told()).map(Sensor::name)
 }
 
 /// What came of a run.

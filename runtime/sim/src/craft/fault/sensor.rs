@@ -46,6 +46,11 @@ impl Sensor {
         info(measurement).fails.then_some(Sensor(Named::Measurement(measurement)))
     }
 
+    /// Whether a mission is told what it measures; of others a navigator alone has the samples.
+    pub fn is_told(self) -> bool {
+        self.measurement().is_some()
+    }
+
     /// The measurement that it is named after, if it is.
     pub(crate) fn measurement(self) -> Option<u16> {
         match self.0 {
