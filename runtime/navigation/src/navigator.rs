@@ -14,7 +14,7 @@ pub trait Navigator: Debug + Send + Sync {
     fn update(&mut self, fix: &Fix) -> bool;
 
     /// Takes what an instrument told as it measured it. Those that reckon from speed and compass have no use for it.
-    fn sense(&mut self, _: &Raw) {}
+    fn sense(&mut self, _: &Raw<'_>) {}
 
     /// Where the vehicle is, as far as is known.
     fn estimate(&self) -> Estimate;
@@ -55,7 +55,7 @@ pub struct Sensed {
 
 /// What instruments told as they measured it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Raw {
+pub enum Raw<'a> {
     /// The inertial unit, of some seconds up to now.
     Inertial {
         /// Rates of turn, rad/s, body; none: nothing came.
@@ -66,7 +66,7 @@ pub enum Raw {
         time: f64,
     },
     /// What aids it, of now.
-    Aiding(Aiding),
+    Aiding(&'a Aiding),
 }
 
 /// A position that was measured.

@@ -248,7 +248,7 @@ impl Inertial {
         }
         let is_told = self.time - self.moved <= UNTOLD_S;
         let doubt = if is_told { 0.0 } else { UNTOLD_RANGE_SIGMA / self.filter.setup_mut().sound_speed };
-        self.filter.setup_mut().arrival_sigma = self.arrival_sigma.hypot(doubt);
+        self.filter.setup_mut().arrival_sigma = (self.arrival_sigma * self.arrival_sigma + doubt * doubt).sqrt();
     }
 
     fn agreement(&mut self, source: Source) -> &mut Agreement {
@@ -361,10 +361,10 @@ impl Navigator for Inertial {
         is_believed
     }
 
-    fn sense(&mut self, raw: &Raw) {
+    fn sense(&mut self, raw: &Raw<'_>) {
         match *raw {
             Raw::Inertial { gyro, accelerometer, time } => self.go_on(gyro, accelerometer, time),
-            Raw::Aiding(ref aiding) => self.aid(aiding),
+            Raw::Aiding(aiding) => self.aid(aiding),
         }
     }
 

@@ -343,7 +343,10 @@ fn true_words(input: TrueInput, known: &Known, time: f64, scenario: &Scenario) -
         TrueInput::DepthError => of(|errors| errors.error[8].abs()),
         TrueInput::GyroBiasError => of(|errors| greatest(&errors.error[3..6])),
         TrueInput::AccelerometerBiasError => of(|errors| greatest(&errors.error[12..15])),
-        TrueInput::PositionSigma => of(|errors| (0.5 * (errors.sigma[6].powi(2) + errors.sigma[7].powi(2))).sqrt()),
+        TrueInput::PositionSigma => of(|errors| {
+            let [north, east] = [errors.sigma[6], errors.sigma[7]];
+            (0.5 * (north * north + east * east)).sqrt()
+        }),
     }
 }
 

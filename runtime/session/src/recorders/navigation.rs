@@ -71,7 +71,8 @@ impl NavigationAccount {
         for ((gathered, bounds), nis) in self.nis.iter_mut().zip(&NIS_95).zip(errors.nis) {
             nis.into_iter().for_each(|nis| gathered.take(nis, bounds));
         }
-        let horizontal = errors.error[6].hypot(errors.error[7]);
+        let (north, east) = (errors.error[6], errors.error[7]);
+        let horizontal = (north * north + east * east).sqrt();
         self.looks += 1;
         self.nees.take(errors.nees, &NEES_95);
         self.horizontal = (self.horizontal.0 + horizontal, self.horizontal.1.max(horizontal));

@@ -42,7 +42,7 @@ impl Sensed {
             let (error, sigma) = (shown(errors.error[i]), shown(errors.sigma[i]));
             let meaning = format!("{state} as it is believed less as it is, known in simulation alone");
             tell(format!("navigation.error.{state}"), unit, meaning, Some(error));
-            let meaning = format!("standard deviation of that, as the navigator expects it");
+            let meaning = "standard deviation of that, as the navigator expects it".to_string();
             tell(format!("navigation.sigma.{state}"), unit, meaning, Some(sigma));
         }
         let normal = "1 on average where the navigator is right";

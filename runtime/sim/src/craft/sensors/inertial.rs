@@ -258,7 +258,7 @@ impl InertialSuite {
                 last(RawSensor::Receivers).map(|sample| sample.array::<5>().map(|told| receivers.expected(told)))
             }),
         };
-        navigator.sense(&Raw::Aiding(aiding));
+        navigator.sense(&Raw::Aiding(&aiding));
     }
 }
 
