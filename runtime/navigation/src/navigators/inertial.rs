@@ -18,6 +18,9 @@ const GATE_3: f64 = 16.27;
 const GATE_5: f64 = 20.52;
 /// So many fixes in a row confirm the position.
 const CONFIRMED_FIXES: u32 = 5;
+/// No vehicle of ours turns faster, rad/s, nor feels more, m/s2.
+const TURN_MAX: f64 = 5.0;
+const FORCE_MAX: f64 = 50.0;
 /// Silence is told of after so long, s: of the inertial unit, and of the Doppler log.
 const UNIT_SILENT_S: f64 = 1.0;
 const LOG_SILENT_S: f64 = 10.0;
@@ -213,6 +216,7 @@ impl Inertial {
     /// A sample of the inertial unit, of some seconds.
     fn go_on(&mut self, gyro: Option<[f64; 3]>, accelerometer: Option<[f64; 3]>, time: f64) {
         self.time += time;
+        let (gyro, accelerometer) = (possible(gyro, TURN_MAX), possible(accelerometer, FORCE_MAX));
         let gyro = self.gyro.believed(gyro, self.time, &mut self.notices);
         let accelerometer = self.accelerometer.believed(accelerometer, self.time, &mut self.notices);
         if self.filter.predict(&Imu { gyro, accelerometer }, time).is_err() {
@@ -338,6 +342,11 @@ impl Lively {
             ..*aiding
         }
     }
+}
+
+/// A sample of which no number is beyond what can be.
+fn possible(sample: Option<[f64; 3]>, most: f64) -> Option<[f64; 3]> {
+    sample.filter(|sample| sample.iter().all(|x| x.abs() <= most))
 }
 
 /// What is told of an instrument of the navigation.

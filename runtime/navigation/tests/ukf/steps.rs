@@ -136,6 +136,7 @@ fn it_begins_only_with_what_can_be() {
 
 /// A sample of the inertial unit, and what came with it.
 #[derive(Clone, Copy)]
+#[expect(clippy::large_enum_variant, reason = "a history keeps copies of both")]
 enum Event {
     Imu(Imu),
     Aiding(Aiding),

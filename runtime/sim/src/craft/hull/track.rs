@@ -2,7 +2,7 @@
 
 use super::Motion;
 use super::six_dof::{Controls, State};
-use albacore_geometry::{Attitude, wrap_angle};
+use albacore_geometry::{Attitude, Vector, wrap_angle};
 use albacore_vehicle::TICK_S;
 use nalgebra::Vector6;
 
@@ -50,8 +50,8 @@ impl Track {
         self.states.len().saturating_sub(1).max(1)
     }
 
-    /// A tick of a hull that stays level and has no steps of its own, from one motion to the next. Its velocity goes evenly from the mean
-    /// over the tick before to that over this one: the same way in the end, half a tick late.
+    /// A tick of a hull that stays level and has no steps of its own, from one motion to the next, in which it sank so fast before it and in
+    /// it, m/s. Its velocity over ground changes at once when the tick begins, for over a tick it is one.
     pub(super) fn level(&mut self, before: &Motion, after: &Motion, sinks: [f64; 2]) {
         let turn = after.heading - before.heading;
         let yaw_rate = turn / TICK_S;
@@ -60,19 +60,42 @@ impl Track {
         for step in 0..=LEVEL_STEPS {
             let share = f64::from(step) / f64::from(LEVEL_STEPS);
             let yaw = wrap_angle(before.heading.radians() + share * turn);
-            let between = |from: f64, to: f64| from + share * (to - from);
             let place = before.position + share * (after.position - before.position);
-            let over_ground = [
-                between(before.ground_velocity.north, after.ground_velocity.north),
-                between(before.ground_velocity.east, after.ground_velocity.east),
-                between(sinks[0], sinks[1]),
-            ];
-            let [u, v, w] = Attitude::of(0.0, 0.0, yaw).to_body(over_ground);
-            let depth = between(before.depth, after.depth);
+            let (motion, sinks) = if step == 0 { (before, sinks[0]) } else { (after, sinks[1]) };
+            let Vector { north, east } = motion.ground_velocity;
+            let [u, v, w] = Attitude::of(0.0, 0.0, yaw).to_body([north, east, sinks]);
+            let depth = before.depth + share * (after.depth - before.depth);
             self.states.push(State {
                 pose: Vector6::new(place.north, place.east, depth, 0.0, 0.0, yaw),
                 velocity: Vector6::new(u, v, w, 0.0, 0.0, yaw_rate),
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use albacore_geometry::{Heading, Point};
+
+    #[test]
+    fn the_velocity_of_a_level_tick_leads_to_where_it_ends() {
+        let before = Motion { ground_velocity: Vector::new(1.0, 0.0), depth: 5.0, ..Motion::default() };
+        let after = Motion {
+            position: Point::new(0.1, 0.05),
+            heading: Heading::from_degrees(1.0),
+            ground_velocity: Vector::new(1.0, 0.5),
+            depth: 5.02,
+            ..before
+        };
+        let mut track = Track::default();
+        track.level(&before, &after, [0.0, 0.2]);
+        assert_eq!((track.states.len(), track.steps(), track.step_s()), (11, 10, 0.01));
+        let way = track.states[1..].iter().fold([0.0; 3], |way, state| {
+            let [u, v, w, ..] = std::array::from_fn::<f64, 6, _>(|i| state.velocity[i]);
+            let step = Attitude::of(0.0, 0.0, state.pose[5]).to_ned([u, v, w]);
+            std::array::from_fn(|i| way[i] + 0.01 * step[i])
+        });
+        assert!((way[0] - 0.1).abs() < 1e-12 && (way[1] - 0.05).abs() < 1e-12 && (way[2] - 0.02).abs() < 1e-12);
     }
 }

@@ -36,8 +36,6 @@ const CURRENT_MAX: f64 = 1.0;
 const UNTOLD_TICKS: u64 = 50;
 const BOUND_TICKS: u64 = 10;
 const BOUND_STEADY_S: f64 = 100.0;
-/// How fast sound is taken to be where nothing tells it, m/s.
-const SOUND_SPEED: f64 = 1500.0;
 
 /// The instruments of a run.
 #[derive(Clone, Debug)]
@@ -49,8 +47,8 @@ pub struct InertialSuite {
     dvl: Dvl,
     dvl_noise: Noise,
     receivers: Option<ReceiverArray>,
-    /// How fast sound is taken to be; none: as the CTD tells it.
-    sound_speed: Option<f64>,
+    /// Whether sound is taken to be as fast as the CTD tells it.
+    hears_by_ctd: bool,
     /// What a metre of water weighs on a square metre, Pa, and where the gauge is aboard, m, body.
     weight: f64,
     gauge: [f64; 3],
@@ -63,7 +61,7 @@ pub struct InertialSuite {
 }
 
 /// What the filter is told of the instruments of a scenario.
-fn filter_setup(setup: &InstrumentSetup, transponder: Option<&Transponder>) -> Ins15Setup {
+fn filter_setup(setup: &InstrumentSetup, world: &World, start: &StartPose) -> Ins15Setup {
     let told = Ins15Setup::default();
     let weight = told.density * told.gravity;
     let receivers = setup.inverted_usbl.as_ref();
@@ -73,20 +71,20 @@ fn filter_setup(setup: &InstrumentSetup, transponder: Option<&Transponder>) -> I
         attitude_sigma: setup.attitude.sigma(),
         pressure_sigma: weight * setup.pressure.noise.max(DEPTH_SIGMA_MIN),
         arrival_sigma: receivers.map_or(told.arrival_sigma, |receivers| receivers.sigma()),
-        sound_speed: receivers.and_then(|receivers| receivers.sound_speed).unwrap_or(SOUND_SPEED),
-        transponder: transponder.map_or(told.transponder, |transponder| transponder.place(0.0)),
+        // Without a CTD a vehicle goes by what was measured where and when it was launched.
+        sound_speed: receivers.and_then(|receivers| receivers.sound_speed).unwrap_or_else(|| {
+            let launched = |transponder: &Transponder| {
+                transponder.sound_speed(world.stratification(), start.position, start.depth, 0.0)
+            };
+            world.transponder().map_or(told.sound_speed, launched)
+        }),
+        transponder: world.transponder().map_or(told.transponder, |transponder| transponder.place(0.0)),
         ..told
     }
 }
 
 /// What a navigator begins with: the start of a run as it is known, and the instruments. The errors of the start are drawn.
-pub fn departure(
-    setup: &InstrumentSetup,
-    transponder: Option<&Transponder>,
-    start: &StartPose,
-    start_sigma: f64,
-    seed: u64,
-) -> Departure {
+pub fn departure(setup: &InstrumentSetup, world: &World, start: &StartPose, start_sigma: f64, seed: u64) -> Departure {
     let imu = &setup.imu;
     let sigma = InsState {
         attitude: setup.attitude.sigma(),
@@ -109,7 +107,7 @@ pub fn departure(
         position: start.position,
         state,
         sigma,
-        setup: filter_setup(setup, transponder),
+        setup: filter_setup(setup, world, start),
         exact_pressure: setup.pressure.noise == 0.0,
         exact_velocity: setup.dvl.noise == 0.0,
     }
@@ -127,10 +125,8 @@ impl InertialSuite {
             dvl: setup.dvl.clone(),
             dvl_noise: Noise::named(seed, "raw velocity"),
             receivers: setup.inverted_usbl.as_ref().map(|own| ReceiverArray::new(own, told.receivers, seed)),
-            sound_speed: match &setup.inverted_usbl {
-                Some(receivers) if setup.ctd.is_some() => receivers.sound_speed,
-                _ => Some(SOUND_SPEED),
-            },
+            hears_by_ctd: setup.ctd.is_some()
+                && setup.inverted_usbl.as_ref().is_some_and(|receivers| receivers.sound_speed.is_none()),
             weight: told.density * told.gravity,
             gauge: told.pressure_sensor,
             model: VelocityModel::new(hull).filter(|_| settings.model),
@@ -186,7 +182,7 @@ impl InertialSuite {
 
     /// How fast sound is in the water about the vehicle, as its CTD tells it, where it goes by that.
     pub fn hear(&self, navigator: &mut Inertial, water: (f64, f64), depth: f64) {
-        if self.sound_speed.is_none() {
+        if self.hears_by_ctd {
             navigator.hear_at(sound_speed(water.0, water.1, depth));
         }
     }

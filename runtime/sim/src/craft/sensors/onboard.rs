@@ -33,7 +33,7 @@ impl OnboardNavigation {
     pub fn new(setup: &InstrumentSetup, hull: &HullSetup, world: &World, start: &StartPose, seed: u64) -> Self {
         let inertial = setup.inertial();
         let sigma = inertial.map_or(0.0, |InertialSettings { start, .. }| *start);
-        let departure = departure(setup, world.transponder(), start, sigma, seed);
+        let departure = departure(setup, world, start, sigma, seed);
         OnboardNavigation {
             compass: MagneticCompass::new(&setup.compass, seed),
             dvl: DopplerLog::new(&setup.dvl, seed),

@@ -215,13 +215,16 @@ mod tests {
     use super::super::inertial::departure;
     use super::*;
     use crate::craft::hull::StartPose;
+    use crate::scenario::Scenario;
+    use crate::world::World;
 
     /// Dead reckoning with a perfect velocity.
     const PERFECT: NavigatorSetup = NavigatorSetup::DeadReckoning { walk: 0.0 };
 
     /// Begins at the origin.
     fn begun(navigation: &Navigation, gps: Option<&Gps>, seed: u64) -> Positioning {
-        let departure = departure(&InstrumentSetup::default(), None, &StartPose::default(), 1.0, seed);
+        let world = World::new(&Scenario::default(), seed);
+        let departure = departure(&InstrumentSetup::default(), &world, &StartPose::default(), 1.0, seed);
         Positioning::new(Some(navigation), gps, &departure, seed)
     }
 

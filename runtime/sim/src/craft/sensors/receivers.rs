@@ -20,7 +20,8 @@ pub struct InvertedUsbl {
     pub noise: f64,
     /// The clock that counts it, Hz: it counts whole periods. Default 500 kHz.
     pub clock: f64,
-    /// How fast the vehicle takes sound to be, m/s. Default as its CTD tells it, and 1500 without one.
+    /// How fast the vehicle takes sound to be, m/s. Default as its CTD tells it, and without one as it truly was
+    /// where and when the run began.
     pub sound_speed: Option<f64>,
     /// They hear no transponder from farther, m. Default none: from anywhere.
     pub range: Option<f64>,
