@@ -348,7 +348,7 @@ fn a_port_that_is_taken_costs_nobody_a_run() {
 fn a_terminal_is_told_how_a_run_stands() {
     let folder = empty("live-status");
     let mut terminal = Terminal::new();
-    let mut run = albacore(&["run", "missions/box.alb", "--live", "--rate", "400", "--no-out"]);
+    let mut run = albacore(&["run", "missions/box.alb", "--live", "--rate", "20", "--no-out"]);
     let mut run = run.stderr(terminal.line()).env("TERM", "xterm").spawn().unwrap();
     terminal.says(" m  altitude ");
     send("-INT", &run);

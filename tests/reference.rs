@@ -111,7 +111,7 @@ fn the_table_of_units_is_true() {
             "behavior b{n}(x: {ty} = 1 {unit} in {low:.18} {base}..{high:.18} {base}) {{ wait for 1 s }}\n"
         ));
     }
-    assert_eq!(script.lines().count(), 26, "every unit, each on a row:\n{script}");
+    assert_eq!(script.lines().count(), 27, "every unit, each on a row:\n{script}");
     let mut found = findings("units", &script, false);
     found.retain(|(code, _)| !OF_A_FRAGMENT.contains(code));
     assert_eq!(found, []);

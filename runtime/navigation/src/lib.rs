@@ -17,5 +17,7 @@ pub mod ukf;
 pub use flow_estimate::{AdcpMessage, BodyVelocity, FlowEstimate, FlowGates, Verdict};
 pub use health::{Anomaly, AnomalyEvent, HealthMonitor};
 pub use navigator::{Estimate, Fix, Navigator, Raw, Sensed};
-pub use navigators::{DeadReckoning, Departure, Inertial, InertialSettings, NavigatorSetup, Nis, Reported};
+pub use navigators::{
+    DeadReckoning, Departure, ErrorEllipse, Inertial, InertialSettings, NavigatorSetup, Nis, Reported,
+};
 pub use trust::Trust;

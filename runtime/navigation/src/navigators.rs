@@ -6,7 +6,7 @@ mod reported;
 mod unscented;
 
 pub use dead_reckoning::DeadReckoning;
-pub use inertial::{Inertial, Nis, Settings as InertialSettings};
+pub use inertial::{ErrorEllipse, Inertial, Nis, Settings as InertialSettings};
 pub use reported::Reported;
 pub use unscented::Unscented;
 

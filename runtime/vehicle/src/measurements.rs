@@ -23,7 +23,7 @@ pub struct MeasurementInfo {
     pub fails: bool,
     /// The measurement whose sensor it comes from alone, where that is another's: it fails with that.
     pub fails_with: Option<u16>,
-    /// The clause of the instrument that it comes from, where a vehicle may not have that one.
+    /// The clause of the instrument that it comes from, as a scenario has it, where a vehicle may not have that one.
     pub instrument: Option<&'static str>,
 }
 
@@ -77,6 +77,11 @@ impl MeasurementInfo {
         MeasurementInfo { sources, ..self }
     }
 
+    /// Whether it is an inertial navigator's.
+    pub fn is_of_inertial(&self) -> bool {
+        self.instrument == Some(INERTIAL)
+    }
+
     /// Whether it is of the vehicle's data sheet, and no sensor's.
     pub fn is_of_data_sheet(&self) -> bool {
         self.instrument == Some(DATA_SHEET)
@@ -101,6 +106,8 @@ impl MeasurementInfo {
 /// The rows, and each measurement's number: its place among them.
 /// The clause that gives a vehicle its data sheet.
 const DATA_SHEET: &str = "abilities";
+/// The navigator that knows how well it knows what.
+const INERTIAL: &str = "navigation(inertial())";
 
 macro_rules! measurements {
     ($($(#[$doc:meta])* $number:ident: $row:expr;)*) => {
@@ -151,6 +158,14 @@ measurements! {
     DEPTH_LIMIT: MeasurementInfo::of("depth_limit", Quantity::Height).of_instrument(DATA_SHEET);
     /// The current below the vehicle.
     FLOW_BELOW: MeasurementInfo::of("flow_below", Quantity::Flow).of_instrument("lower_adcp");
+    /// The greater half axis of the ellipse of standard deviations about the believed position.
+    SIGMA_MAJOR: MeasurementInfo::of("sigma_major", Quantity::Height).of_instrument(INERTIAL);
+    /// The smaller one.
+    SIGMA_MINOR: MeasurementInfo::of("sigma_minor", Quantity::Height).of_instrument(INERTIAL);
+    /// Where the greater one points, or the other way.
+    SIGMA_TOWARD: MeasurementInfo::of("sigma_toward", Quantity::Direction).of_instrument(INERTIAL);
+    /// Whether the navigator's instruments agree with it: the place in the library's `enum NavigationState`.
+    NAVIGATION_STATE: MeasurementInfo::of("navigation_state", Quantity::Word).of_instrument(INERTIAL);
 }
 
 /// A measurement of ours by its number.

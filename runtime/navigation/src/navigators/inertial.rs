@@ -1,7 +1,10 @@
 //! Inertial navigation with the filter of 15 states, which watches whether its instruments agree with it.
 
 mod agreement;
+mod ellipse;
 mod liveliness;
+
+pub use ellipse::ErrorEllipse;
 
 use super::Departure;
 use crate::navigator::{Estimate, Fix, Navigator, Raw, Sensed};
@@ -177,6 +180,12 @@ impl Inertial {
     /// The standard deviations of the errors to expect.
     pub fn sigma(&self) -> InsState {
         self.filter.sigma()
+    }
+
+    /// The ellipse of standard deviations about the position north and east.
+    pub fn ellipse(&self) -> ErrorEllipse {
+        let covariance = self.filter.filter().covariance();
+        ErrorEllipse::of(covariance[(6, 6)], covariance[(7, 7)], covariance[(6, 7)])
     }
 
     /// The error of a state by the covariance: 15 on average where the filter is right.

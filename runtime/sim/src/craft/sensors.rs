@@ -52,6 +52,7 @@ use abilities::DataSheet;
 use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::{Estimate, InertialSettings};
+use albacore_vehicle::measurements::MeasurementInfo;
 use albacore_vehicle::{Limits, Measurement, NavigationErrors, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
@@ -173,7 +174,11 @@ clauses! {
 impl InstrumentSetup {
     /// What a vehicle tells that has them.
     pub fn measurements(&self) -> Vec<Measurement> {
-        measurements::delivered(|row| row.instrument.is_none_or(|clause| self.has(clause)) || self.is_played(row.name))
+        let is_told = |row: &MeasurementInfo| match row.instrument {
+            _ if row.is_of_inertial() => self.inertial().is_some(),
+            instrument => instrument.is_none_or(|clause| self.has(clause)),
+        };
+        measurements::delivered(|row| is_told(row) || self.is_played(row.name))
     }
 
     /// Why a vehicle that lies still tells no sample of a measurement; `None` where nothing keeps it from that.

@@ -12,9 +12,14 @@ use crate::craft::hull::{Misjudged, Motion, StartPose, State, Track};
 use crate::craft::setup::HullSetup;
 use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
-use albacore_navigation::{Estimate, Inertial, InertialSettings};
-use albacore_vehicle::measurements::{COURSE, DEPTH, HEADING, POSITION, SPEED};
+use albacore_navigation::{ErrorEllipse, Estimate, Inertial, InertialSettings};
+use albacore_vehicle::measurements::{
+    COURSE, DEPTH, HEADING, NAVIGATION_STATE, POSITION, SIGMA_MAJOR, SIGMA_MINOR, SIGMA_TOWARD, SPEED,
+};
 use albacore_vehicle::{NavigationErrors, Snapshot, TICK_S};
+
+/// Ticks between what is told of how well the position is known: a second.
+const UNCERTAINTY_TICKS: u64 = 10;
 
 /// Compass, Doppler log and position, of which each needs another.
 #[derive(Clone, Debug)]
@@ -119,14 +124,21 @@ impl OnboardNavigation {
         }
     }
 
-    /// What an inertial navigator tells, at every tick, beside the position.
-    fn tell_inertial(inertial: &Inertial, snapshot: &mut Snapshot) {
+    /// What an inertial navigator tells beside the position: at every tick, and once a second how well it knows that.
+    fn tell_inertial(tick: u64, inertial: &Inertial, snapshot: &mut Snapshot) {
         let state = inertial.state();
         let velocity = ground_velocity(&state);
         snapshot.push(COURSE, &[velocity.toward().radians()]);
         snapshot.push(HEADING, &[Heading::from_radians(state.attitude[2]).radians()]);
         snapshot.push(SPEED, &[velocity.length()]);
         snapshot.push(DEPTH, &[state.position[2].max(0.0)]);
+        if tick.is_multiple_of(UNCERTAINTY_TICKS) {
+            let ErrorEllipse { major, minor, toward } = inertial.ellipse();
+            snapshot.push(SIGMA_MAJOR, &[major]);
+            snapshot.push(SIGMA_MINOR, &[minor]);
+            snapshot.push(SIGMA_TOWARD, &[toward.radians()]);
+            snapshot.push(NAVIGATION_STATE, &[f64::from(u8::from(inertial.is_doubted()))]);
+        }
     }
 }
 
@@ -136,7 +148,7 @@ impl Instrument for OnboardNavigation {
         let Estimate { position, sigma } = self.belief(truth.position);
         snapshot.push(POSITION, &[position.north, position.east, sigma]);
         if let Some(inertial) = self.inertial() {
-            return Self::tell_inertial(inertial, snapshot);
+            return Self::tell_inertial(tick, inertial, snapshot);
         }
         let velocity = self.velocity(tick, around.ground_velocity, truth.heading);
         let velocity = self.dvl.sample(tick, truth.altitude, velocity);
