@@ -19,8 +19,8 @@ pub struct MeasurementInfo {
     pub is_watched: bool,
     /// What the vehicle makes it of: doubtful with any of them.
     pub sources: &'static [u16],
-    /// Whether a sensor of its name can fail by a `fault` clause.
-    pub fails: bool,
+    /// What a `fault` clause calls its sensor, where that can fail: as the measurement, but where an instrument's clause has that name.
+    pub fails_as: Option<&'static str>,
     /// The measurement whose sensor it comes from alone, where that is another's: it fails with that.
     pub fails_with: Option<u16>,
     /// The clause of the instrument that it comes from, as a scenario has it, where a vehicle may not have that one.
@@ -43,7 +43,7 @@ impl MeasurementInfo {
             is_gated: false,
             is_watched: false,
             sources: &[],
-            fails: false,
+            fails_as: None,
             fails_with: None,
             instrument: None,
         }
@@ -62,7 +62,11 @@ impl MeasurementInfo {
     }
 
     const fn can_fail(self) -> Self {
-        MeasurementInfo { fails: true, ..self }
+        self.can_fail_as(self.name)
+    }
+
+    const fn can_fail_as(self, sensor: &'static str) -> Self {
+        MeasurementInfo { fails_as: Some(sensor), ..self }
     }
 
     const fn failing_with(self, sensor: u16) -> Self {
@@ -139,7 +143,7 @@ measurements! {
     /// The chemical sensor: the edge of a plume is sharp.
     CHEMICAL: MeasurementInfo::of("chemical", Quantity::Ratio).watched().can_fail();
     /// What is left in the battery. A gauge is coarse; a battery that is empty in a quarter of an hour is none of ours.
-    BATTERY: MeasurementInfo::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated();
+    BATTERY: MeasurementInfo::of("battery", Quantity::Ratio).changes(0.001, 0.1).gated().can_fail_as("battery_gauge");
     /// What the vehicle's own mission is about: the place in the library's `enum VehicleMode`.
     VEHICLE_MODE: MeasurementInfo::of("vehicle_mode", Quantity::Word);
     /// The temperature of the water.

@@ -7,7 +7,7 @@ use albacore_vehicle::measurements::{ALL, HEADING, info};
 use albacore_vehicle::{Quantity, Reading, Sample};
 use serde::Deserialize;
 
-/// A sensor that can fail: by the measurement that it is named after, one with [`fails`](albacore_vehicle::measurements::MeasurementInfo), or
+/// A sensor that can fail: by the measurement that it is named after, one with [`fails_as`](albacore_vehicle::measurements::MeasurementInfo), or
 /// by a name of its own, where only a navigator has its samples.
 ///
 /// `water_depth` is the sum of depth and altitude: it fails with either, and stays away where one of them does.
@@ -37,13 +37,13 @@ impl TryFrom<String> for Sensor {
 impl Sensor {
     /// All of them, in the order of their measurements; those that have none last.
     pub fn all() -> impl Iterator<Item = Sensor> {
-        let told = (0..).zip(&ALL).filter(|(_, row)| row.fails).map(|(number, _)| Named::Measurement(number));
+        let told = (0..).zip(&ALL).filter(|(_, row)| row.fails_as.is_some()).map(|(number, _)| Named::Measurement(number));
         told.chain(RawSensor::named().map(|(raw, name)| Named::Raw(raw, name))).map(Sensor)
     }
 
     /// That of a measurement, if it can fail.
     pub fn of(measurement: u16) -> Option<Sensor> {
-        info(measurement).fails.then_some(Sensor(Named::Measurement(measurement)))
+        info(measurement).fails_as.map(|_| Sensor(Named::Measurement(measurement)))
     }
 
     /// Whether a mission is told what it measures; of others a navigator alone has the samples.
@@ -70,7 +70,7 @@ impl Sensor {
     /// What a scenario calls it.
     pub fn name(self) -> &'static str {
         match self.0 {
-            Named::Measurement(number) => info(number).name,
+            Named::Measurement(number) => info(number).fails_as.unwrap_or(info(number).name),
             Named::Raw(_, name) => name,
         }
     }
