@@ -37,7 +37,8 @@ impl TryFrom<String> for Sensor {
 impl Sensor {
     /// All of them, in the order of their measurements; those that have none last.
     pub fn all() -> impl Iterator<Item = Sensor> {
-        let told = (0..).zip(&ALL).filter(|(_, row)| row.fails_as.is_some()).map(|(number, _)| Named::Measurement(number));
+        let told =
+            (0..).zip(&ALL).filter(|(_, row)| row.fails_as.is_some()).map(|(number, _)| Named::Measurement(number));
         told.chain(RawSensor::named().map(|(raw, name)| Named::Raw(raw, name))).map(Sensor)
     }
 

@@ -86,18 +86,21 @@ impl OnboardNavigation {
         Some(self.suite.as_ref()?.errors(self.inertial()?, state))
     }
 
-    /// What an autopilot goes by that is told by an inertial navigator, of a hull in a state.
+    /// What an autopilot goes by that is told by an inertial navigator, of a hull in a state: heading, pitch, their rates and depth, and while the navigator
+    /// is in doubt the heading alone.
     pub fn misjudged(&self, state: &State) -> Option<Misjudged> {
         let inertial = self.inertial()?;
         let believed = inertial.state();
-        // Without gyroscopes to navigate by an autopilot has its own.
-        let rates = inertial.rates();
-        let off = |axis: usize| rates.map_or(0.0, |rates| rates[axis] - state.velocity[3 + axis]);
+        let heading = wrap_angle(believed.attitude[2] - state.pose[5]);
+        // While it is in doubt, and without gyroscopes to navigate by, an autopilot has gauges of its own.
+        let Some(rates) = inertial.rates().filter(|_| !inertial.is_doubted()) else {
+            return Some(Misjudged { heading, ..Misjudged::default() });
+        };
         Some(Misjudged {
-            heading: wrap_angle(believed.attitude[2] - state.pose[5]),
+            heading,
             pitch: believed.attitude[1] - state.pose[4],
-            pitch_rate: off(1),
-            yaw_rate: off(2),
+            pitch_rate: rates[1] - state.velocity[4],
+            yaw_rate: rates[2] - state.velocity[5],
             depth: believed.position[2] - state.pose[2],
         })
     }
