@@ -62,11 +62,12 @@ def column(runs, name):
 
 
 def cases(path):
-    """The runs of each scenario."""
+    """The runs of each scenario; of each with its method, where methods were swept."""
     scenarios = {}
     with open(path, newline="", encoding="utf-8") as table:
         for run in csv.DictReader(table):
-            scenarios.setdefault(run["scenario"], []).append(run)
+            name = "`, `".join(run[part] for part in ("scenario", "method") if part in run)
+            scenarios.setdefault(name, []).append(run)
     return scenarios
 
 
