@@ -203,13 +203,15 @@ impl Inertial {
         &self.nis
     }
 
-    /// Whether an instrument disagrees now or did so until the filter gave way, or is stuck, or the inertial unit tells nothing.
+    /// Whether an instrument disagrees now or did so until the filter gave way.
+    pub fn is_contradicted(&self) -> bool {
+        let sources = [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
+        sources.into_iter().any(Agreement::is_doubtful)
+    }
+
+    /// The same, or whether one is stuck, or tells nothing that it is needed for.
     pub fn is_doubted(&self) -> bool {
-        let disagrees = [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
-        disagrees.into_iter().any(Agreement::is_doubtful)
-            || self.gyro.is_told_of()
-            || self.accelerometer.is_told_of()
-            || self.lively.is_told_of()
+        self.is_contradicted() || self.gyro.is_told_of() || self.accelerometer.is_told_of() || self.lively.is_told_of()
     }
 
     /// The filter itself.

@@ -86,14 +86,14 @@ impl OnboardNavigation {
         Some(self.suite.as_ref()?.errors(self.inertial()?, state))
     }
 
-    /// What an autopilot goes by that is told by an inertial navigator, of a hull in a state: heading, pitch, their rates and depth, and while the navigator
-    /// is in doubt the heading alone.
+    /// What an autopilot goes by that is told by an inertial navigator, of a hull in a state: heading, pitch, their rates and depth, and while an
+    /// instrument contradicts the navigator the heading alone.
     pub fn misjudged(&self, state: &State) -> Option<Misjudged> {
         let inertial = self.inertial()?;
         let believed = inertial.state();
         let heading = wrap_angle(believed.attitude[2] - state.pose[5]);
-        // While it is in doubt, and without gyroscopes to navigate by, an autopilot has gauges of its own.
-        let Some(rates) = inertial.rates().filter(|_| !inertial.is_doubted()) else {
+        // While it is contradicted, and without gyroscopes to navigate by, an autopilot has gauges of its own.
+        let Some(rates) = inertial.rates().filter(|_| !inertial.is_contradicted()) else {
             return Some(Misjudged { heading, ..Misjudged::default() });
         };
         Some(Misjudged {
