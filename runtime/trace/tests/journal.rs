@@ -170,12 +170,12 @@ fn what_is_no_journal_is_said_to_be_none() {
     let said = |bytes: &[u8]| Journal::read(bytes).unwrap_err().to_string();
     assert_eq!(said(b""), "the journal is cut short at byte 0: expected the beginning of a journal");
     assert!(said(b"mission box").starts_with("this is no journal, or a damaged one: at byte 0"));
-    let expected = "the journal has the form of version 7, and this albacore reads version 6 alone: read it with the albacore that wrote it";
-    assert_eq!(said(b"ALBJ\x07\0\0\0"), expected);
+    let expected = "the journal has the form of version 8, and this albacore reads version 7 alone: read it with the albacore that wrote it";
+    assert_eq!(said(b"ALBJ\x08\0\0\0"), expected);
     // The form before delays, withheld samples and gaps: its records would be read as something else.
     let (good, _) = journal();
     let older = [b"ALBJ\x01\0\0\0", &good[8..]].concat();
-    assert_eq!(said(&older), expected.replace("version 7", "version 1"));
+    assert_eq!(said(&older), expected.replace("version 8", "version 1"));
 }
 
 #[test]
