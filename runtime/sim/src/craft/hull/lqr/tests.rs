@@ -309,35 +309,6 @@ fn a_heading_is_held_to_a_degree() {
     }
 }
 
-/// At the corners of what a scenario can ask for.
-#[test]
-fn within_its_bounds_no_hull_runs_away() {
-    for step in [0.001, 0.01, 0.05] {
-        for fin_max in [radians(1.0), radians(45.0)] {
-            let corner = || SubmersibleHull {
-                step,
-                fin_max,
-                turns_max: *SubmersibleHull::TURNS_MAX.end(),
-                speed_max: *SubmersibleHull::SPEED_MAX.end(),
-                controller: LQR,
-            };
-            for hull in [
-                HullSetup::Fossen(corner()),
-                HullSetup::Prestero(corner(), Crossflow::Corrected),
-                HullSetup::Prestero(corner(), Crossflow::AsPrinted),
-            ] {
-                let mut trial = Trial::new(hull);
-                for leg in 0..20_u32 {
-                    let depth = if leg % 2 == 0 { 45.0 } else { 0.0 };
-                    for m in trial.go(f64::from(leg) * 100.0, 20.0, Vertical::Depth(depth), 10.0) {
-                        assert!(m.speed.abs() < 10.0 && m.ground_velocity.length() < 10.0, "{step}, {fin_max}: {m:?}");
-                    }
-                }
-            }
-        }
-    }
-}
-
 /// What a navigation filter would put in the place of the truth: the hull goes by it.
 #[test]
 fn it_goes_by_what_it_is_told() {

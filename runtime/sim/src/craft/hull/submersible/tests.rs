@@ -1,7 +1,7 @@
 //! How both hulls answer their autopilots, and what becomes of them when something fails.
 
 use crate::craft::hull::trial::{Trial, response};
-use crate::craft::hull::{Controller, Crossflow, Motion, Stuck};
+use crate::craft::hull::{Controller, Crossflow, LqrGains, Motion, Stuck};
 use crate::craft::setup::{HullSetup, SubmersibleHull};
 use albacore_geometry::math::{degrees, radians};
 use albacore_geometry::{Heading, Vector};
@@ -212,28 +212,26 @@ fn equations_that_run_away_are_an_error_and_no_number() {
 /// At the corners of what a scenario can ask for.
 #[test]
 fn within_its_bounds_no_hull_runs_away() {
-    for step in [0.001, 0.01, 0.05] {
-        for fin_max in [radians(1.0), radians(45.0)] {
-            let corner = || SubmersibleHull {
-                step,
-                fin_max,
-                turns_max: *SubmersibleHull::TURNS_MAX.end(),
-                speed_max: *SubmersibleHull::SPEED_MAX.end(),
-                controller: Controller::Cascade,
-            };
-            for hull in [
-                HullSetup::Fossen(corner()),
-                HullSetup::Prestero(corner(), Crossflow::Corrected),
-                HullSetup::Prestero(corner(), Crossflow::AsPrinted),
-            ] {
-                let mut trial = Trial::new(hull);
-                for leg in 0..20_u32 {
-                    let depth = if leg % 2 == 0 { 45.0 } else { 0.0 };
-                    for m in trial.go(f64::from(leg) * 100.0, 20.0, Vertical::Depth(depth), 10.0) {
-                        assert!(m.speed.abs() < 10.0 && m.ground_velocity.length() < 10.0, "{step}, {fin_max}: {m:?}");
-                    }
-                }
+    for controller in [Controller::Cascade, Controller::Lqr2016(LqrGains::default())] {
+        for step in [0.001, 0.01, 0.05] {
+            for fin_max in [radians(1.0), radians(45.0)] {
+                let (turns_max, speed_max) = (*SubmersibleHull::TURNS_MAX.end(), *SubmersibleHull::SPEED_MAX.end());
+                let corner = SubmersibleHull { step, fin_max, turns_max, speed_max, controller };
+                swims_to_and_fro(HullSetup::Fossen(corner.clone()));
+                swims_to_and_fro(HullSetup::Prestero(corner.clone(), Crossflow::Corrected));
+                swims_to_and_fro(HullSetup::Prestero(corner, Crossflow::AsPrinted));
             }
+        }
+    }
+}
+
+/// Up and down, and round, as fast as it can.
+fn swims_to_and_fro(hull: HullSetup) {
+    let mut trial = Trial::new(hull.clone());
+    for leg in 0..20_u32 {
+        let depth = if leg % 2 == 0 { 45.0 } else { 0.0 };
+        for m in trial.go(f64::from(leg) * 100.0, 20.0, Vertical::Depth(depth), 10.0) {
+            assert!(m.speed.abs() < 10.0 && m.ground_velocity.length() < 10.0, "{hull:?}: {m:?}");
         }
     }
 }
