@@ -34,12 +34,12 @@ pub(crate) static DEFAULTS: LazyLock<Defaults> = LazyLock::new(|| {
 });
 
 impl Defaults {
-    /// A clause of it, if to say it so would change nothing of a world: then it is in force there.
+    /// A clause of it, if to say it so would change nothing of a world that has a use for it: then it is in force there.
     pub fn in_force(&self, name: &str, world: &Scenario) -> Option<&ScenarioClause> {
         let clause = self.said.as_ref()?.clauses.iter().find(|clause| clause.name == name)?;
         let mut said = Understood { world: world.clone(), dialect: None, files: Vec::new() };
         let read = read(&mut said, Clause { clause, words: &self.words }, &Files::around(Path::new("")), None);
-        (read.is_ok() && said.world == *world).then_some(clause)
+        (read.is_ok() && said.world == *world && world.instruments.uses(name)).then_some(clause)
     }
 }
 
