@@ -30,6 +30,7 @@ fn every_fault_of_inertial_navigation_is_survived_and_told() {
             let (summary, trace) = run(Some(&format!("{sensor}, {disorder}")), 1);
             let what = format!("{sensor} {}", disorder.replace('_', " "));
             assert!(trace.contains(&format!("fault: {what}")), "{trace}");
+            assert_ne!(summary.outcome, Outcome::Aground.name(), "{what}");
             let unnoticed = summary.navigation.as_ref().map_or(0.0, |navigation| navigation.unnoticed_s);
             assert!(unnoticed <= SOON_S, "{what}: {unnoticed} s\n{trace}");
         }

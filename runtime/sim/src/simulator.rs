@@ -64,7 +64,7 @@ impl Simulator {
         let start = vehicle.start;
         let altitude = world.water_depth(start) - vehicle.depth;
         let flow = world.flow(start, altitude, 0.0);
-        let berth = StartPose { position: start, heading: vehicle.heading, depth: vehicle.depth, flow };
+        let berth = StartPose::of(&vehicle, flow);
         let takes_raw = scenario.instruments.inertial().is_some();
         let mut simulator = Simulator {
             measurements: scenario.measurements(),
@@ -322,6 +322,7 @@ impl Vehicle for Simulator {
         self.told = self.control;
         self.measure(tick, snapshot);
         self.faults.filter(tick, &mut snapshot.samples);
+        self.instruments.hear(&snapshot.samples);
         Ok(())
     }
 

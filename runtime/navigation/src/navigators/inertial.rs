@@ -41,6 +41,8 @@ const DOUBT: InsState = InsState {
     velocity: [0.5; 3],
     accelerometer_bias: [0.1; 3],
 };
+/// What is told of an instrument that does.
+const DISAGREES: &str = "disagrees";
 /// Where it is the transponder's place that disagrees, its next signal finds that anew, m.
 const LOST: f64 = 1000.0;
 
@@ -58,6 +60,16 @@ enum Source {
 impl Source {
     const ALL: [Source; 6] =
         [Source::Attitude, Source::Pressure, Source::Velocity, Source::Model, Source::Receivers, Source::Fixes];
+
+    /// Numbers of a sample.
+    const fn freedoms(self) -> u8 {
+        match self {
+            Source::Pressure => 1,
+            Source::Fixes => 2,
+            Source::Attitude | Source::Velocity | Source::Model => 3,
+            Source::Receivers => 5,
+        }
+    }
 
     const fn name(self) -> &'static str {
         match self {
@@ -115,12 +127,8 @@ pub struct Inertial {
     gyro: Liveliness<3>,
     accelerometer: Liveliness<3>,
     lively: Lively,
-    attitude: Agreement,
-    pressure: Agreement,
-    velocity: Agreement,
-    model: Agreement,
-    receivers: Agreement,
-    fixes: Agreement,
+    /// Of each source, in their order.
+    agreements: [Agreement; Source::ALL.len()],
     /// When a velocity was told last, s.
     moved: f64,
     /// Of a time of arrival, while a velocity is told, s.
@@ -158,12 +166,7 @@ impl Inertial {
             gyro: Liveliness::of("gyroscope", false, Some(UNIT_SILENT_S)),
             accelerometer: Liveliness::of("accelerometer", false, Some(UNIT_SILENT_S)),
             lively: Lively::new(departure),
-            attitude: Agreement::of(3),
-            pressure: Agreement::of(1),
-            velocity: Agreement::of(3),
-            model: Agreement::of(3),
-            receivers: Agreement::of(5),
-            fixes: Agreement::of(2),
+            agreements: Source::ALL.map(|source| Agreement::of(source.freedoms())),
             moved: 0.0,
             arrival_sigma,
             confirmed: 0,
@@ -184,8 +187,8 @@ impl Inertial {
 
     /// The ellipse of standard deviations about the position north and east.
     pub fn ellipse(&self) -> ErrorEllipse {
-        let covariance = self.filter.filter().covariance();
-        ErrorEllipse::of(covariance[(6, 6)], covariance[(7, 7)], covariance[(6, 7)])
+        let [north, east, both] = self.filter.place_covariance();
+        ErrorEllipse::of(north, east, both)
     }
 
     /// The error of a state by the covariance: 15 on average where the filter is right.
@@ -205,8 +208,7 @@ impl Inertial {
 
     /// Whether an instrument disagrees now or did so until the filter gave way.
     pub fn is_contradicted(&self) -> bool {
-        let sources = [&self.attitude, &self.pressure, &self.velocity, &self.model, &self.receivers, &self.fixes];
-        sources.into_iter().any(Agreement::is_doubtful)
+        self.agreements.iter().any(Agreement::is_doubtful)
     }
 
     /// The same, or whether one is stuck, or tells nothing that it is needed for.
@@ -266,27 +268,16 @@ impl Inertial {
         self.filter.setup_mut().arrival_sigma = (self.arrival_sigma * self.arrival_sigma + doubt * doubt).sqrt();
     }
 
-    fn agreement(&mut self, source: Source) -> &mut Agreement {
-        match source {
-            Source::Attitude => &mut self.attitude,
-            Source::Pressure => &mut self.pressure,
-            Source::Velocity => &mut self.velocity,
-            Source::Model => &mut self.model,
-            Source::Receivers => &mut self.receivers,
-            Source::Fixes => &mut self.fixes,
-        }
-    }
-
     /// What a measurement tells of its instrument and of the filter; its normalised innovation squared, of each number.
     fn judge<const M: usize>(&mut self, source: Source, told: Result<Innovation<M>, UkfError>) -> Option<f64> {
         let (time, nis) = (self.time, told.ok().map(|innovation| innovation.nis));
         let held_back = told.is_ok_and(|innovation| innovation.gated) || told.is_err();
-        let agreement = self.agreement(source);
+        let agreement = &mut self.agreements[source as usize];
         let turn = agreement.take(time, nis, held_back);
         let gives_way = held_back && agreement.has_persisted();
         match turn {
             Turn::Same => {}
-            Turn::Disagrees => self.tell(true, source.name(), "disagrees"),
+            Turn::Disagrees => self.notices.push(notice(true, source.name(), DISAGREES)),
             Turn::Agrees => self.notices.push(format!(
                 "navigation: {} agrees again; which was wrong is not known, and the position is doubtful until fixes confirm it",
                 source.name()
@@ -302,15 +293,11 @@ impl Inertial {
 
     /// Fixes, which come from elsewhere, agree with all: what was doubtful is not any more.
     fn confirm(&mut self) {
-        for source in Source::ALL {
-            if self.agreement(source).confirm() {
-                self.tell(false, source.name(), "disagrees");
+        for (agreement, source) in self.agreements.iter_mut().zip(Source::ALL) {
+            if agreement.confirm() {
+                self.notices.push(notice(false, source.name(), DISAGREES));
             }
         }
-    }
-
-    fn tell(&mut self, begins: bool, what: &str, how: &str) {
-        self.notices.push(notice(begins, what, how));
     }
 }
 

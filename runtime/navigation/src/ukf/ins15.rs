@@ -126,6 +126,13 @@ impl Ins15 {
         &self.filter
     }
 
+    /// The variances of north and of east, and the covariance of both, m2.
+    pub fn place_covariance(&self) -> [f64; 3] {
+        let covariance = self.filter.covariance();
+        let (north, east) = (POSITION, POSITION + 1);
+        [covariance[(north, north)], covariance[(east, east)], covariance[(north, east)]]
+    }
+
     /// Goes on by the time, s, of which the sample is, Eq. (14) with the noise of Eq. (16) at the mean.
     ///
     /// # Errors

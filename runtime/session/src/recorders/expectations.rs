@@ -315,11 +315,6 @@ struct Known<'a> {
     navigation: Option<&'a NavigationErrors>,
 }
 
-/// The greatest size of some errors.
-fn greatest(errors: &[f64]) -> f64 {
-    errors.iter().fold(0.0, |most, error| error.abs().max(most))
-}
-
 /// The words of what an input would truly tell at a time (s of the run), in SI units.
 fn true_words(input: TrueInput, known: &Known, time: f64, scenario: &Scenario) -> Vec<f64> {
     let truth = known.truth;
@@ -337,14 +332,14 @@ fn true_words(input: TrueInput, known: &Known, time: f64, scenario: &Scenario) -
         TrueInput::Chemical => vec![truth.concentration],
         TrueInput::Flow => vec![truth.flow.north, truth.flow.east],
         TrueInput::PositionError => vec![known.believed.map_or(0.0, |believed| believed.distance(truth.position))],
-        TrueInput::RollError => of(|errors| errors.error[0].abs()),
-        TrueInput::PitchError => of(|errors| errors.error[1].abs()),
-        TrueInput::HeadingError => of(|errors| errors.error[2].abs()),
-        TrueInput::DepthError => of(|errors| errors.error[8].abs()),
-        TrueInput::GyroBiasError => of(|errors| greatest(&errors.error[3..6])),
-        TrueInput::AccelerometerBiasError => of(|errors| greatest(&errors.error[12..15])),
+        TrueInput::RollError => of(|errors| errors.of(NavigationErrors::ATTITUDE)[0].abs()),
+        TrueInput::PitchError => of(|errors| errors.of(NavigationErrors::ATTITUDE)[1].abs()),
+        TrueInput::HeadingError => of(|errors| errors.of(NavigationErrors::ATTITUDE)[2].abs()),
+        TrueInput::DepthError => of(|errors| errors.of(NavigationErrors::PLACE)[2].abs()),
+        TrueInput::GyroBiasError => of(|errors| errors.greatest(NavigationErrors::GYRO_BIAS)),
+        TrueInput::AccelerometerBiasError => of(|errors| errors.greatest(NavigationErrors::ACCELEROMETER_BIAS)),
         TrueInput::PositionSigma => of(|errors| {
-            let [north, east] = [errors.sigma[6], errors.sigma[7]];
+            let [north, east, _] = errors.expected(NavigationErrors::PLACE);
             (0.5 * (north * north + east * east)).sqrt()
         }),
     }

@@ -71,7 +71,7 @@ impl NavigationAccount {
         for ((gathered, bounds), nis) in self.nis.iter_mut().zip(&NIS_95).zip(errors.nis) {
             nis.into_iter().for_each(|nis| gathered.take(nis, bounds));
         }
-        let (north, east) = (errors.error[6], errors.error[7]);
+        let [north, east, depth] = errors.of(NavigationErrors::PLACE);
         let horizontal = (north * north + east * east).sqrt();
         self.looks += 1;
         self.nees.take(errors.nees, &NEES_95);
@@ -85,12 +85,10 @@ impl NavigationAccount {
             return;
         }
         self.settled += 1;
-        let greatest =
-            |group: usize| errors.error[3 * group..3 * group + 3].iter().fold(0.0, |m: f64, e| m.max(e.abs()));
-        self.attitude.iter_mut().zip(errors.error).for_each(|(list, error)| list.push(error.abs()));
-        self.gyro_bias = self.gyro_bias.max(greatest(1));
-        self.accelerometer_bias = self.accelerometer_bias.max(greatest(4));
-        let depth = errors.error[8];
+        let attitude = errors.of(NavigationErrors::ATTITUDE);
+        self.attitude.iter_mut().zip(attitude).for_each(|(list, error)| list.push(error.abs()));
+        self.gyro_bias = self.gyro_bias.max(errors.greatest(NavigationErrors::GYRO_BIAS));
+        self.accelerometer_bias = self.accelerometer_bias.max(errors.greatest(NavigationErrors::ACCELEROMETER_BIAS));
         self.depth = (self.depth.0 + depth * depth, self.depth.1.max(depth.abs()));
     }
 
@@ -124,8 +122,9 @@ impl NavigationAccount {
 
 /// Whether the place is farther off than is expected.
 fn beyond(errors: &NavigationErrors) -> bool {
-    let (north, east) = (errors.error[6], errors.error[7]);
-    let (a, b, c) = (errors.sigma[6] * errors.sigma[6], errors.sigma[7] * errors.sigma[7], errors.north_east);
+    let [north, east, _] = errors.of(NavigationErrors::PLACE);
+    let [a, b, _] = errors.expected(NavigationErrors::PLACE).map(|sigma| sigma * sigma);
+    let c = errors.north_east;
     let determinant = a * b - c * c;
     north * north * b - 2.0 * north * east * c + east * east * a > BEYOND * determinant
 }
@@ -151,7 +150,7 @@ mod tests {
             nis: [Some(2.0), None, None, None],
             doubted,
         };
-        errors.error[6] = north;
+        errors.error[NavigationErrors::PLACE] = north;
         errors
     }
 

@@ -34,7 +34,7 @@ use albacore_geometry::{Heading, Point, Vector};
 use albacore_vehicle::Command;
 
 /// Acceleration of gravity, m/s2.
-const GRAVITY: f64 = 9.81;
+pub(crate) const GRAVITY: f64 = 9.81;
 
 /// Where a hull is and how it moves, at a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,6 +78,11 @@ pub struct StartPose {
 }
 
 impl StartPose {
+    /// That of a vehicle as a scenario has it, in water that moves with `flow`.
+    pub fn of(vehicle: &VehicleSetup, flow: Vector) -> Self {
+        StartPose { position: vehicle.start, heading: vehicle.heading, depth: vehicle.depth, flow }
+    }
+
     fn motion(&self) -> Motion {
         let StartPose { position, heading, depth, flow } = *self;
         Motion { position, heading, depth, ground_velocity: flow, ..Motion::default() }
@@ -98,7 +103,7 @@ pub enum Hull {
 impl Hull {
     /// At rest at its start, in water that moves with `flow`.
     pub fn new(setup: &VehicleSetup, flow: Vector, seed: u64) -> Self {
-        let berth = StartPose { position: setup.start, heading: setup.heading, depth: setup.depth, flow };
+        let berth = StartPose::of(setup, flow);
         let settings = |hull: &SubmersibleHull, gains: Gains| Settings {
             steps: hull.steps(),
             speed_max: hull.speed_max,

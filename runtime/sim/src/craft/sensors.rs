@@ -53,7 +53,7 @@ use adcp::Profiler;
 use albacore_geometry::{Heading, Point, Vector};
 use albacore_navigation::{Estimate, InertialSettings};
 use albacore_vehicle::measurements::MeasurementInfo;
-use albacore_vehicle::{Limits, Measurement, NavigationErrors, Snapshot, TICK_S, Truth, measurements};
+use albacore_vehicle::{Limits, Measurement, NavigationErrors, Sample, Snapshot, TICK_S, Truth, measurements};
 use battery::BatteryGauge;
 use clock::Clock;
 use ctd::CtdProbe;
@@ -201,6 +201,15 @@ impl InstrumentSetup {
         self.navigation.as_ref().and_then(|navigation| navigation.navigator.inertial())
     }
 
+    /// Whether a vehicle with this navigation has a use for an instrument: what is said of another is in force nowhere.
+    pub fn uses(&self, clause: &str) -> bool {
+        match clause {
+            "imu" | "attitude" => self.inertial().is_some(),
+            "compass" => self.inertial().is_none(),
+            _ => true,
+        }
+    }
+
     /// What a sensor needs that a navigator takes as it measures, where that is missing, and the mend.
     pub(crate) fn lacks(&self, sensor: RawSensor) -> Option<(&'static str, &'static str)> {
         let is_inertial = self.inertial().is_some();
@@ -307,6 +316,11 @@ impl Instruments {
     /// Lets one tick go by.
     pub fn step(&mut self, step: &Step, world: &World, faults: &mut Faults) {
         self.navigation.step(step, world, faults);
+    }
+
+    /// Has the navigation hear what the vehicle is told at a tick, faults and all.
+    pub fn hear(&mut self, told: &[Sample]) {
+        self.navigation.hear(told);
     }
 
     /// How far it is off, of a hull in a state.

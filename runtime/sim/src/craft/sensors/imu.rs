@@ -1,14 +1,11 @@
 //! The inertial measurement unit: three gyroscopes and three accelerometers along the axes of the body.
 
 use super::raw::{RawSample, RawSensor};
-use crate::craft::hull::{State, Track, attitude_of};
+use crate::craft::hull::{GRAVITY, State, Track, attitude_of};
 use crate::noise::Noise;
 use albacore_vehicle::TICK_S;
 use nalgebra::Vector3;
 use serde::Deserialize;
-
-/// Acceleration of gravity, m/s2.
-const GRAVITY: f64 = 9.81;
 
 /// An inertial unit. The default is that of Table 1 of Jayasiri et al. (2016), with the biases of its Eq. (4) and (6).
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -20,6 +20,7 @@ use albacore_navigation::ukf::{Aiding, Ins15Setup, InsState, Velocity};
 use albacore_navigation::{Departure, Inertial, InertialSettings, Navigator, Raw};
 use albacore_vehicle::rate::is_due;
 use albacore_vehicle::{NAVIGATION_STATES, NavigationErrors, TICK_S};
+use std::ops::RangeInclusive;
 
 /// What is measured without noise counts as measured this well, m of water and m/s: a filter has to weigh it.
 const DEPTH_SIGMA_MIN: f64 = 0.005;
@@ -30,6 +31,8 @@ const ACCELEROMETER_BIAS_SIGMA_MIN: f64 = 1e-2;
 /// How well depth and velocity are known when a run begins, m and m/s.
 const START_DEPTH_SIGMA: f64 = 0.1;
 const START_VELOCITY_SIGMA: f64 = 0.5;
+/// Sound in water is this fast, m/s: what a CTD tells otherwise is wrong.
+const SOUND_SPEEDS: RangeInclusive<f64> = 1300.0..=1700.0;
 /// A current is no faster than this where a vehicle swims, m/s.
 const CURRENT_MAX: f64 = 1.0;
 /// The velocity is bounded when nothing has told it for so many ticks, once in so many, and stays alike for so long, s.
@@ -180,10 +183,11 @@ impl InertialSuite {
         raw.push(RawSample::new(RawSensor::DopplerLog, step, std::array::from_fn::<f64, 3, _>(told)));
     }
 
-    /// How fast sound is in the water about the vehicle, as its CTD tells it, where it goes by that.
-    pub fn hear(&self, navigator: &mut Inertial, water: (f64, f64), depth: f64) {
-        if self.hears_by_ctd {
-            navigator.hear_at(sound_speed(water.0, water.1, depth));
+    /// Has a navigator go by the water that its CTD tells of, temperature (degrees Celsius) and practical salinity, where it goes by that.
+    pub fn hear(&self, navigator: &mut Inertial, temperature: f64, salinity: f64) {
+        let sound = sound_speed(temperature, salinity, navigator.state().position[2]);
+        if self.hears_by_ctd && SOUND_SPEEDS.contains(&sound) {
+            navigator.hear_at(sound);
         }
     }
 
@@ -207,7 +211,7 @@ impl InertialSuite {
         NavigationErrors {
             error,
             sigma,
-            north_east: navigator.filter().filter().covariance()[(6, 7)],
+            north_east: navigator.filter().place_covariance()[2],
             nees: navigator.nees(&error) / NAVIGATION_STATES as f64,
             nis: [nis.attitude, nis.pressure, nis.velocity, nis.arrival],
             doubted: navigator.is_doubted(),

@@ -14,9 +14,10 @@ use crate::world::World;
 use albacore_geometry::{Heading, Point, Vector, wrap_angle};
 use albacore_navigation::{ErrorEllipse, Estimate, Inertial, InertialSettings};
 use albacore_vehicle::measurements::{
-    COURSE, DEPTH, HEADING, NAVIGATION_STATE, POSITION, SIGMA_MAJOR, SIGMA_MINOR, SIGMA_TOWARD, SPEED,
+    COURSE, DEPTH, HEADING, NAVIGATION_STATE, POSITION, SALINITY, SIGMA_MAJOR, SIGMA_MINOR, SIGMA_TOWARD, SPEED,
+    TEMPERATURE,
 };
-use albacore_vehicle::{NavigationErrors, Snapshot, TICK_S};
+use albacore_vehicle::{NavigationErrors, Sample, Snapshot};
 
 /// Ticks between what is told of how well the position is known: a second.
 const UNCERTAINTY_TICKS: u64 = 10;
@@ -62,13 +63,20 @@ impl OnboardNavigation {
         self.positioning.measure(tick, motion.position, motion.depth, &mut self.raw);
         faults.filter_raw(tick, &mut self.raw);
         if let (Some(suite), Some(navigator), Some(track)) = (&mut self.suite, self.positioning.navigator(), track) {
-            if let Some(inertial) = navigator.inertial_mut() {
-                let time = tick as f64 * TICK_S;
-                suite.hear(inertial, world.stratification().at(motion.position, motion.depth, time), motion.depth);
-            }
             suite.feed(tick, &self.raw, track, navigator);
         }
         self.positioning.take(&self.raw);
+    }
+
+    /// Hears what the vehicle is told at a tick, faults and all: of the water.
+    pub fn hear(&mut self, told: &[Sample]) {
+        let last = |measurement| told.iter().rfind(|s| s.measurement == measurement).map(|s| s.reading[0]);
+        if let (Some(temperature), Some(salinity)) = (last(TEMPERATURE), last(SALINITY))
+            && let (Some(suite), Some(navigator)) = (&self.suite, self.positioning.navigator())
+            && let Some(inertial) = navigator.inertial_mut()
+        {
+            suite.hear(inertial, temperature, salinity);
+        }
     }
 
     /// Where it believes that a vehicle is which is at a place.
